@@ -13,15 +13,6 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// Before the first iteration, an island has converged only if its residual is within this part of
-/// the tolerance: all others have at least one iteration, so that small forces set them in motion.
-constexpr double rest_tolerance = 1e-3;
-
-/// With friction, whose normal forces follow from iteration to iteration, the residual falls by
-/// about the same factor in each: where an iteration ends just within the tolerance, all contacts
-/// of a rod that slides would err to the same side.
-constexpr double friction_tolerance = 0.3;
-
 /// Factor for the next Newton step.
 double next_scale(double scale, const LineSearch::Island& accepted) {
   constexpr double too_short = 1.6;
@@ -200,105 +191,6 @@ void NewtonSolver::assemble(Rods& rods, const Problem& problem) {
     }
     packs_[pack].update_residuals();
   });
-}
-
-/// Deactivates islands whose residual is within the tolerance, with friction by the forces of now.
-/// Effects with multipliers update them first, which may raise the residual again.
-void NewtonSolver::check_convergence(Rods& rods, const Problem& problem, std::uint32_t iteration) {
-  find_residuals();
-  const double allowed = (iteration == 0                ? rest_tolerance
-                          : problem.friction != nullptr ? friction_tolerance
-                                                        : 1.0) *
-                         problem.options.residual;
-  const auto is_near = [&](std::size_t i) {
-    return states_[i].is_active && reports_[i].residual <= allowed;
-  };
-  bool has_friction_of_before = false;
-  for (std::size_t i = 0; i < states_.size(); ++i) {
-    has_friction_of_before |=
-        problem.friction != nullptr && is_near(i) && !states_[i].has_friction_of_now;
-  }
-  if (has_friction_of_before) {
-    update_friction(rods, problem);
-    assemble(rods, problem);
-    find_residuals();
-  }
-  for (std::size_t i = 0; i < states_.size(); ++i) {
-    states_[i].is_converged = is_near(i);
-  }
-  if (update_multipliers(rods, problem)) {
-    for (PackStep& pack : packs_) {
-      pack.load_values(problem.effects);
-    }
-    evaluate_energies(rods, problem);
-    assemble(rods, problem);
-    find_residuals();
-  }
-  for (std::size_t i = 0; i < states_.size(); ++i) {
-    if (states_[i].is_active) {
-      reports_[i].iterations = iteration;
-      states_[i].is_active = !states_[i].is_converged;
-    }
-  }
-}
-
-void NewtonSolver::find_residuals() {
-  for (IslandReport& report : reports_) {
-    report.residual = -1.0;
-  }
-  for_each_rod([&](std::size_t pack, std::size_t lane, std::uint32_t island) {
-    const PackStep::Residual residual = packs_[pack].residual(lane);
-    IslandReport& report = reports_[island];
-    if (!(residual.speed <= report.residual)) {
-      report.residual = residual.speed;
-      report.rod = packs_[pack].rods().rods[lane];
-      report.node = residual.node;
-    }
-  });
-}
-
-/// Updates the Lagrange multipliers of converged islands: one whose constraints do not hold yet has
-/// not converged.
-/// @returns whether there are any
-bool NewtonSolver::update_multipliers(Rods& rods, const Problem& problem) {
-  for (IslandState& state : states_) {
-    state.was_converged = state.is_converged;
-  }
-  bool is_any_violated = false;
-  for (const auto& effect : problem.effects) {
-    if (!effect->has_multipliers()) {
-      continue;
-    }
-    for_each_rod([&](std::size_t pack, std::size_t lane, std::uint32_t island) {
-      if (states_[island].was_converged) {
-        store(packs_[pack].rods(), rods);
-        if (!effect->update_multipliers(rods, packs_[pack].rods().rods[lane])) {
-          states_[island].is_converged = false;
-          is_any_violated = true;
-        }
-      }
-    });
-  }
-  return is_any_violated;
-}
-
-/// Makes the friction of islands that are near convergence that of the normal forces where they
-/// are. A step that ends with friction by the forces of the step before has none in a contact that
-/// begins, and any in an impact (Larionov et al. 2023).
-void NewtonSolver::update_friction(const Rods& rods, const Problem& problem) {
-  constexpr double near_convergence = 1000.0;  // times the residual that is allowed
-  if (problem.friction == nullptr) {
-    return;
-  }
-  std::vector<bool> which;
-  for (std::size_t i = 0; i < states_.size(); ++i) {
-    IslandState& state = states_[i];
-    state.has_friction_of_now =
-        state.is_active && reports_[i].residual <= near_convergence * problem.options.residual;
-    which.push_back(state.has_friction_of_now);
-  }
-  problem.contacts->update_friction(rods, scratch_->islands, which);
-  sum_energies(problem);
 }
 
 void NewtonSolver::find_newton_step(const Problem& problem) {
