@@ -31,7 +31,8 @@ if(FIBER_PROXIMITY_SANITIZE)
     -fsanitize=${FIBER_PROXIMITY_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   if(FIBER_PROXIMITY_SANITIZE MATCHES undefined)
     # AddressSanitizer sees what these see, and they take a third of the time to compile and to run.
-    target_compile_options(fiber_proximity_options INTERFACE -fno-sanitize=null,object-size,vptr)
+    target_compile_options(fiber_proximity_options INTERFACE
+      -fno-sanitize=null,object-size,vptr,pointer-overflow)
   endif()
   target_link_options(fiber_proximity_options INTERFACE -fsanitize=${FIBER_PROXIMITY_SANITIZE})
 endif()

@@ -26,6 +26,14 @@ function(fiber_proximity_compile_fast)
   endforeach()
 endfunction()
 
+# fiber_proximity_compile_cold(TARGET...)
+# For tests that wait for programs and nodes: -O0 takes the compiler two thirds of the time of -O1.
+function(fiber_proximity_compile_cold)
+  foreach(target IN LISTS ARGN)
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O0>)
+  endforeach()
+endfunction()
+
 # fiber_proximity_precompile(TARGET HEADER...)
 function(fiber_proximity_precompile target)
   if(FIBER_PROXIMITY_PRECOMPILE_HEADERS)

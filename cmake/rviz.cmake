@@ -36,6 +36,7 @@ target_link_libraries(fiber_proximity_rviz
 # Or TBB's headers do not survive after Qt's: both have something called emit.
 target_compile_definitions(fiber_proximity_rviz PRIVATE QT_NO_KEYWORDS)
 fiber_proximity_parse_once(fiber_proximity_rviz)
+fiber_proximity_compile_fast(fiber_proximity_rviz)
 
 install(TARGETS fiber_proximity_rviz
   ARCHIVE DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}

@@ -127,9 +127,9 @@ class DistributedEngineTest : public testing::TestWithParam<std::size_t> {};
 TEST_P(DistributedEngineTest, FindsWhatOneProcessFinds) {
   SCOPED_TRACE(seed_message());
   const AssemblyFamily family = families()[GetParam()];
-  Random random(GetParam());
+  Random random(stream_of_family(GetParam()));
   DistributedEngine engine(MPI_COMM_WORLD, one_thread());
-  for (int scene = 0; scene < rounds(6); ++scene) {
+  for (int scene = 0; scene < scenes_of_a_family(); ++scene) {
     FiberAssembly fibers = family.make(random);
     DistributedFibers mine = scattered_to(own_rank(), fibers, scatter(fibers, 3, random));
     const int adopted = random.integer(0, 4);

@@ -72,11 +72,11 @@ void update(DistributedEngine& engine, const FiberAssembly& before, const FiberA
 
 class DistributedMotionTest : public testing::TestWithParam<std::size_t> {};
 
-void expect_what_one_process_finds(const AssemblyFamily& family, std::uint64_t stream) {
+void expect_what_one_process_finds(const AssemblyFamily& family, std::uint64_t stream, int scenes) {
   SCOPED_TRACE(seed_message());
   Random random(stream);
   DistributedEngine engine(MPI_COMM_WORLD, one_thread());
-  for (int scene = 0; scene < rounds(6); ++scene) {
+  for (int scene = 0; scene < scenes; ++scene) {
     FiberAssembly before = family.make(random);
     const double extent = extent_of(before);
     const std::vector<ScatteredPart> scattered = scatter(before, 3, random);
@@ -107,7 +107,8 @@ void expect_what_one_process_finds(const AssemblyFamily& family, std::uint64_t s
 }
 
 TEST_P(DistributedMotionTest, FindsWhatOneProcessFinds) {
-  expect_what_one_process_finds(rank_families()[GetParam()], GetParam());
+  expect_what_one_process_finds(rank_families()[GetParam()], stream_of_family(GetParam()),
+                                scenes_of_a_family());
 }
 
 /// Over four ranks, one contact too many: a loop was found in the halo of the scene before.
@@ -117,7 +118,7 @@ TEST(DistributedMotion, ForgetsWhereOthersWere) {
     return other.name == "millimetres_at_1e8";
   });
   ASSERT_NE(family, families.end());
-  expect_what_one_process_finds(*family, 35);
+  expect_what_one_process_finds(*family, 35, rounds(6));
 }
 
 std::string name_of_family(const testing::TestParamInfo<std::size_t>& info) {

@@ -18,6 +18,7 @@
 #include "test/support/dense_fibers.hpp"
 #include "test/support/hard_scenes.hpp"
 #include "test/support/random.hpp"
+#include "test/support/rounds.hpp"
 
 namespace fiber::test {
 
@@ -31,6 +32,19 @@ inline int rank_count() {
   int size = 1;
   MPI_Comm_size(MPI_COMM_WORLD, &size);
   return size;
+}
+
+/// Scenes of each family. Every rank computes what one process finds, so that a scene costs as many
+/// times more as there are ranks: more than three ranks get fewer scenes, which are others.
+inline int scenes_of_a_family() {
+  const int ranks = rank_count();
+  return rounds(ranks <= 3 ? 6 : std::max(2, 12 / ranks));
+}
+
+/// The stream from which the scenes of a family are drawn: that of the family up to three ranks.
+inline std::uint64_t stream_of_family(std::size_t family) {
+  const int ranks = rank_count();
+  return family + (ranks <= 3 ? 0 : 1000 * static_cast<std::uint64_t>(ranks));
 }
 
 inline std::uint64_t over_ranks(std::uint64_t value, MPI_Op operation) {

@@ -38,7 +38,9 @@ if(TARGET fiber_proximity_mpi)
     add_test(NAME distributed_engine_test_${ranks}
       COMMAND ${start_ranks} ${ranks} $<TARGET_FILE:distributed_engine_test>)
     # Ranks wait for each other at every step: beside other tests all wait for the one that waits for a core.
-    set_tests_properties(distributed_engine_test_${ranks} PROPERTIES RUN_SERIAL TRUE)
+    if(ranks GREATER 1)
+      set_tests_properties(distributed_engine_test_${ranks} PROPERTIES RUN_SERIAL TRUE)
+    endif()
   endforeach()
   add_test(NAME fiber_query_mpi_test
     COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/mpi/fiber_query_mpi_test.sh $<TARGET_FILE_DIR:fiber_query_mpi>

@@ -74,7 +74,9 @@ TEST_P(AccuracyTest, BoundsHoldTheTruth) {
             const Contact* contact = find(result.contacts, pair.key);
             const double lower = contact != nullptr ? contact->lower : result.others_lower;
             ASSERT_TRUE(pair.gap.is_at_least(lower)) << name_of(kernel);
-            ASSERT_TRUE(pair.gap.is_at_least(minimum_lower)) << name_of(kernel);
+            if (!(minimum_lower <= lower)) {  // otherwise that is said already
+              ASSERT_TRUE(pair.gap.is_at_least(minimum_lower)) << name_of(kernel);
+            }
             if (contact != nullptr) {
               ASSERT_TRUE(pair.gap.is_at_most(contact->upper)) << name_of(kernel);
               ASSERT_LE(contact->lower, contact->distance);

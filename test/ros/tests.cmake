@@ -1,5 +1,8 @@
 # Nodes and displays, with a ROS master or without; included from test/, where paths begin.
 
+# Of those that read ROS's headers, which takes most of the time of such a test.
+fiber_proximity_test_headers(graph_test_headers cold fiber_proximity_ros ${ros_headers})
+
 fiber_proximity_gtest(tube_mesh_test ros/tube_mesh_test.cpp LIBRARIES fiber_proximity_ros)
 fiber_proximity_gtest(markers_test
   ros/crossing_markers_test.cpp
@@ -8,6 +11,8 @@ fiber_proximity_gtest(markers_test
   ros/marker_texts_test.cpp
   ros/markers_test.cpp
   ros/shape_marker_test.cpp
+  COLD
+  HEADERS graph_test_headers
   LIBRARIES fiber_proximity_ros
 )
 fiber_proximity_gtest(conversions_test
@@ -16,6 +21,8 @@ fiber_proximity_gtest(conversions_test
   ros/marker_input_test.cpp
   ros/merged_fibers_test.cpp
   ros/missing_points_test.cpp
+  COLD
+  HEADERS graph_test_headers
   LIBRARIES fiber_proximity_ros
 )
 if(NOT FIBER_PROXIMITY_SANITIZE)
@@ -28,11 +35,15 @@ endif()
 fiber_proximity_gtest(stamps_test
   ros/sequence_gaps_test.cpp
   ros/stamp_matcher_test.cpp
+  COLD
+  HEADERS graph_test_headers
   LIBRARIES fiber_proximity_ros
 )
 fiber_proximity_gtest(detector_test
   ros/detector_test.cpp
   ros/fiber_step_test.cpp
+  COLD
+  HEADERS graph_test_headers
   LIBRARIES fiber_proximity_ros
 )
 fiber_proximity_gtest(environment_inputs_test
@@ -41,6 +52,8 @@ fiber_proximity_gtest(environment_inputs_test
   ros/obstacle_change_test.cpp
   ros/robot_links_test.cpp
   ros/scene_parameter_test.cpp
+  COLD
+  HEADERS graph_test_headers
   LIBRARIES fiber_proximity_ros
 )
 find_package(octomap QUIET)  # of which the tests make maps
@@ -59,6 +72,8 @@ endif()
 fiber_proximity_gtest(input_options_test
   ros/input_budget_test.cpp
   ros/input_options_test.cpp
+  COLD
+  HEADERS graph_test_headers
   LIBRARIES fiber_proximity_ros
 )
 fiber_proximity_gtest(fiber_mesh_test
@@ -216,6 +231,7 @@ if(TARGET fiber_proximity_rviz)
   add_executable(display_test EXCLUDE_FROM_ALL rviz/display_test.cpp)
   target_link_libraries(display_test
     fiber_proximity_rviz fiber_proximity_options ${GTEST_LIBRARIES})
+  fiber_proximity_compile_cold(display_test)
   add_dependencies(tests display_test)
   add_rostest(rviz/display.test DEPENDENCIES display_test)
   add_executable(tracker_view_test EXCLUDE_FROM_ALL rviz/tracker_view_test.cpp)
@@ -223,6 +239,7 @@ if(TARGET fiber_proximity_rviz)
     TRACKER_VIEW="${PROJECT_SOURCE_DIR}/rviz/tracker.rviz")
   target_link_libraries(tracker_view_test
     fiber_proximity_rviz fiber_proximity_options ${GTEST_LIBRARIES})
+  fiber_proximity_compile_cold(tracker_view_test)
   add_dependencies(tests tracker_view_test)
   add_rostest(rviz/tracker_view.test DEPENDENCIES tracker_view_test)
 endif()

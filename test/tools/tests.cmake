@@ -20,6 +20,7 @@ fiber_proximity_gtest(tools_test
   tools/sweep_test.cpp
   tools/tiny_fibers_test.cpp
   tools/topology_test.cpp
+  COLD
   LIBRARIES validation_geometry fiber_proximity_compare fiber_proximity_sim nlohmann_json::nlohmann_json
 )
 add_dependencies(tools_test fiber_query fiber_scene fiber_simulate)
