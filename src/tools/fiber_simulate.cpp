@@ -186,6 +186,9 @@ void advance(SimScene& scene) {
 ExitCode run(const Request& request) {
   SimScene scene = make_scene(request);  // what cannot be made leaves no file behind
   const std::int64_t frames = frames_in(request.seconds, scene.time_step);
+  for (const std::string& omission : omissions(scene)) {
+    std::cerr << "warning: " << omission << '\n';
+  }
   const Rods& rods = scene.stepper->rods();
   FiberFrame frame{0, FiberAssembly(rods.positions, rods.offsets, rods.radii)};
   FiberWriter writer(request.out, true);

@@ -106,6 +106,35 @@ double lost_by_strain_rates(const Rods& before, const Rods& after, double relaxa
   return relaxation_time / step * lost;
 }
 
+/// Where rods straighten, the matrix of damping alone has negative eigenvalues: with that of bend
+/// it has none, and no more than that is taken.
+TEST(Damping, BesideBendHasAPositiveSemidefiniteMatrix) {
+  SCOPED_TRACE(seed_message());
+  Random random(9);
+  int negative = 0;
+  for (int round = 0; round < 50; ++round) {
+    Rods rods = random_rods(random);
+    for (RodSection& section : rods.sections) {
+      section.stretching_stiffness = 0.0;
+    }
+    Damping damping(0.1, true);
+    damping.begin_step(rods, {0.0, 0.01});
+    for (std::size_t i = 0; i < rods.positions.size(); ++i) {
+      rods.positions[i].y() *= 0.2;
+    }
+    for (std::uint32_t rod = 1; rod < rods.count(); ++rod) {
+      const auto smallest = [](const Eigen::MatrixXd& matrix) {
+        return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix).eigenvalues().minCoeff();
+      };
+      const Eigen::MatrixXd alone = derivatives_of(damping, rods, rod).hessian;
+      const Eigen::MatrixXd both = alone + derivatives_of(Bend(), rods, rod).hessian;
+      ASSERT_GE(smallest(both), -1e-12 * both.norm()) << "round " << round;
+      negative += smallest(alone) < -1e-3 * alone.norm() ? 1 : 0;
+    }
+  }
+  EXPECT_GT(negative, 10);
+}
+
 /// A cable hangs from two hinges and swings about the line between them.
 TEST(Damping, LosesWhatTheStrainRatesOfASwingingCableLose) {
   constexpr double step = 0.001;  // [s]

@@ -53,6 +53,7 @@ TEST_F(Simulate, ForcesAreAFileOfTheirOwn) {
       "  - stretch\n"
       "  - bend\n"
       "  - damping\n"
+      "  - fiber_contact\n"
       "  - environment_contact\n"
       "  - friction\n"
       "  - attachment: [{fiber: hangs}]\n"

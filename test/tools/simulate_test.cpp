@@ -106,6 +106,15 @@ TEST_F(Simulate, ParaViewGetsTheSameFrames) {
   EXPECT_FALSE(std::filesystem::exists(path("run_000007.vtp")));
 }
 
+TEST_F(Simulate, ASceneHearsWhatItLeavesOut) {
+  std::string scene = ropes;
+  const std::string effect = "  - environment_contact\n";
+  scene.erase(scene.find(effect), effect.size());
+  EXPECT_EQ(simulate(write("scene.yaml", scene) + " --seconds 0.1 --out " + path("out.csv")).err,
+            "warning: fibres pass through the 1 obstacle(s): the effect environment_contact is not "
+            "named\n");
+}
+
 TEST_F(Simulate, ASceneThatAsksForFewIterationsHearsHowFarFromBalanceItWas) {
   const std::string run = " --seconds 0.5 --out " + path("out.csv");
   const auto said = [&](const std::string& more) {

@@ -242,8 +242,8 @@ class Effect {
     energy = SimdBatch{};
   }
 
-  /// Adds the gradient of the energy by what is unknown, and a positive semidefinite matrix near
-  /// its Hessian.
+  /// Adds the gradient of the energy by what is unknown, and a matrix near its Hessian: positive
+  /// semidefinite, at least together with the matrices of effects that it knows to be there.
   virtual void add_derivatives(const RodPack& /*rods*/, const NodeValues& /*values*/,
                                PackSystem& /*system*/) const {}
 

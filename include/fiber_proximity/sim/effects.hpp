@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "fiber_proximity/sim/effect.hpp"
@@ -159,8 +160,12 @@ class Twist : public LaneEffect {
 class Damping : public LaneEffect {
  public:
   /// @param relaxation_time of stretch, bend and twist [s]
-  /// @throws std::invalid_argument if it is negative or not finite
-  explicit Damping(double relaxation_time);
+  /// @param is_beside_bend  whether Bend acts on the same rods, without natural curvature. Without
+  ///                        twist the damping of a rod that straightens gives way sideways: the
+  ///                        matrix has that as far as that of Bend makes up for it, and steps take
+  ///                        fewer iterations
+  /// @throws std::invalid_argument if the time is negative or not finite
+  explicit Damping(double relaxation_time, bool is_beside_bend = false);
 
   void begin_step(Rods& rods, const TimeStep& step) override;
   bool is_stored() const override { return false; }
@@ -171,7 +176,11 @@ class Damping : public LaneEffect {
   Kernels kernels() const override;
 
   double relaxation_time_;
-  double share_ = 0.0;  // of a stiffness, against the change by a step
+  bool is_beside_bend_;
+
+  // The share of a stiffness that resists the change by a step, and the least share of that across
+  // a turn.
+  std::array<double, 2> constants_{};
 
   // By edge, or the node that it begins with, what rates are measured from: the length, and without
   // twist the size of the turn, with twist its two components, the twist, and the part of that

@@ -98,7 +98,8 @@ void add_curved_derivatives_of(const RodPack& rods, const NodeValues& natural, P
       const Real stiffness = total * load(rods.inverse_node_lengths[i], lane);
       const TwoEdges edges = edges_beside(rods, i, lane);
       const SizedTurn turn = sized_turn(edges, load(natural[i], lane));
-      add_sized_turn<U>(edges, turn, direction_of(turn, edges.before), stiffness, i, lane, system);
+      add_sized_turn<U>(edges, turn, direction_of(turn, edges.before), stiffness, real(0.0), i,
+                        lane, system);
     }
   }
 }

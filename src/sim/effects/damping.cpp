@@ -43,8 +43,10 @@ void energy(const RodPack& rods, const NodeValues& earlier, const double* share,
 }
 
 template <std::size_t U>
-void add_derivatives_of(const RodPack& rods, const NodeValues& earlier, double share,
+void add_derivatives_of(const RodPack& rods, const NodeValues& earlier, const double* constants,
                         PackSystem& system) {
+  const double share = constants[0];
+  const Real min_sideways = real(constants[1]);
   const Real smallest = real(std::numeric_limits<double>::min());
   for (std::size_t lane = 0; lane < rods.used; lane += lanes_at_once()) {
     const Real stretching = real(share) * load(rods.stretching_stiffness, lane);
@@ -58,15 +60,15 @@ void add_derivatives_of(const RodPack& rods, const NodeValues& earlier, double s
         // Where the rod has become straight, no side is better than another: there is no force.
         const Vector direction = real(1.0) / hn::Max(turn.size, smallest) * turn.turn;
         const Real stiffness = bending * load(rods.inverse_node_lengths[i], lane);
-        add_sized_turn<U>(edges, turn, direction, stiffness, i, lane, system);
+        add_sized_turn<U>(edges, turn, direction, stiffness, min_sideways, i, lane, system);
       }
     }
   }
 }
 
-void add_derivatives(const RodPack& rods, const NodeValues& earlier, const double* share,
+void add_derivatives(const RodPack& rods, const NodeValues& earlier, const double* constants,
                      PackSystem& system) {
-  with_unknowns(system, [&](auto u) { add_derivatives_of<u>(rods, earlier, *share, system); });
+  with_unknowns(system, [&](auto u) { add_derivatives_of<u>(rods, earlier, constants, system); });
 }
 
 }  // namespace
@@ -109,12 +111,14 @@ void add_turn_sizes(const Rods& rods, const RodState& state, double weight,
 
 }  // namespace
 
-Damping::Damping(double relaxation_time) : relaxation_time_(relaxation_time) {
+Damping::Damping(double relaxation_time, bool is_beside_bend)
+    : relaxation_time_(relaxation_time), is_beside_bend_(is_beside_bend) {
   require_not_negative("damping: the relaxation time", relaxation_time, " s");
 }
 
 void Damping::begin_step(Rods& rods, const TimeStep& step) {
-  share_ = relaxation_time_ / step.length;
+  const double share = relaxation_time_ / step.length;
+  constants_ = {share, is_beside_bend_ && share > 0.0 ? -1.0 / share : 0.0};
   const bool has_twist = !rods.angles.empty();
   per_node_ = has_twist ? section_strains_per_node : sizes_per_node;
   earlier_.assign(per_node_ * rods.positions.size(), 0.0);
@@ -136,20 +140,20 @@ void Damping::begin_step(Rods& rods, const TimeStep& step) {
 
 LaneEffect::Kernels Damping::kernels() const {
   if (per_node_ == section_strains_per_node) {
-    return {&section_damping_energy, &add_section_damping, &share_};
+    return {&section_damping_energy, &add_section_damping, constants_.data()};
   }
-  return {&HWY_DYNAMIC_DISPATCH(energy), &HWY_DYNAMIC_DISPATCH(add_derivatives), &share_};
+  return {&HWY_DYNAMIC_DISPATCH(energy), &HWY_DYNAMIC_DISPATCH(add_derivatives), constants_.data()};
 }
 
 void Damping::add_forces(const RodPack& rods, const NodeValues& values, RodForces& forces) const {
   const std::vector<SimdBatch> moments = per_node_ == section_strains_per_node
-                                             ? section_damping_moments(rods, values, share_)
+                                             ? section_damping_moments(rods, values, constants_[0])
                                              : std::vector<SimdBatch>();
   for_each_edge(rods, [&](const PackLane& rod, std::uint32_t edge, std::uint32_t index) {
     const std::size_t lane = rod.lane();
     const EdgeDirection after = rod.direction(edge);
     const SimdBatch* const earlier = &values[std::size_t{per_node_} * edge];
-    forces.tensions[index] += share_ * rod.stretching_stiffness() *
+    forces.tensions[index] += constants_[0] * rod.stretching_stiffness() *
                               (after.length - earlier[0][lane]) / rod.rest_length(edge);
     if (edge == 0) {
       return;
@@ -163,7 +167,7 @@ void Damping::add_forces(const RodPack& rods, const NodeValues& values, RodForce
     const Vector3d before = rod.direction(edge - 1).tangent;
     const double size = (after.tangent - before).norm();
     const double length = 0.5 * (rod.rest_length(edge - 1) + rod.rest_length(edge));
-    const double share = size > 0.0 ? share_ * (1.0 - earlier[1][lane] / size) : 0.0;
+    const double share = size > 0.0 ? constants_[0] * (1.0 - earlier[1][lane] / size) : 0.0;
     forces.bending_moments[index] +=
         share * rod.bending_stiffness() / length * before.cross(after.tangent);
   });

@@ -8,6 +8,8 @@
 #define FIBER_SIM_EFFECTS_STRAINS_INL
 #endif
 
+#include <limits>
+
 #include "src/sim/edges.hpp"
 #include "src/sim/simd-inl.hpp"
 
@@ -50,18 +52,20 @@ HWY_INLINE SizedTurn sized_turn(const TwoEdges& edges, Real wanted) {
 }
 
 /// Adds the derivatives of half the square of the excess, times a stiffness.
-/// @param direction of the turn
+/// @param direction    of the turn
+/// @param min_sideways share of the stiffness that the matrix has across this direction, at least.
+///                     A rod that is straighter than it wants to be gives way sideways: below 0
+///                     that is met as far as another effect's matrix makes up for it.
 template <std::size_t U>
 HWY_INLINE void add_sized_turn(const TwoEdges& edges, const SizedTurn& turn,
-                               const Vector& direction, Real stiffness, std::size_t node,
-                               std::size_t lane, PackSystem& system) {
-  const Real zero = real(0.0);
+                               const Vector& direction, Real stiffness, Real min_sideways,
+                               std::size_t node, std::size_t lane, PackSystem& system) {
   const Real one = real(1.0);
   const Vector gradient = stiffness * turn.excess * direction;
   add_gradient<U>(edges, negative(gradient), gradient, node, lane, system);
-  // A rod that is straighter than it wants to be gives way sideways: as in Stretch.
-  const Real share = hn::Max(zero, turn.excess) / hn::Max(turn.size, turn.wanted);
-  const auto is_straight = hn::Eq(turn.wanted, zero);
+  const Real smallest = real(std::numeric_limits<double>::min());
+  const Real share = hn::Max(min_sideways, turn.excess / hn::Max(turn.size, smallest));
+  const auto is_straight = hn::Eq(turn.wanted, real(0.0));
   const Real sideways = hn::IfThenElse(is_straight, one, share);
   EdgeBlocks blocks = isotropic_blocks(edges, stiffness * sideways);
   add_along(edges, stiffness * (one - sideways), direction, blocks);

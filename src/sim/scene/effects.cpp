@@ -112,8 +112,9 @@ Gravity make_gravity(const EffectOptions& options) {
   return Gravity(vector_of(options, "acceleration"));
 }
 
+template <bool is_beside_bend>
 Damping make_damping(const EffectOptions& options) {
-  return Damping(number_of(options, "relaxation_time"));
+  return Damping(number_of(options, "relaxation_time"), is_beside_bend);
 }
 
 Drag make_drag(const EffectOptions& options) {
@@ -317,7 +318,11 @@ MadeEffects make_effects(const SimDescription& description, Rods& rods, SimScene
   add_fixed("bend", [](const auto&) { return std::make_unique<Bend>(); });
   add_fixed("twist", [&](const auto&) { return std::make_unique<Twist>(rods); });
   set_natural_curvature(description, rods);  // after twist, which gives rods their frames
-  add(make_adjustable(description, "damping", make_damping, scene));
+  const SimCurvature& natural = description.natural_curvature;
+  const bool bends_to_be_straight = description.has_effect("bend") && natural.curvature == 0.0 &&
+                                    !natural.is_from_shape && !description.has_effect("plasticity");
+  add(make_adjustable(description, "damping",
+                      bends_to_be_straight ? make_damping<true> : make_damping<false>, scene));
   add(make_adjustable(description, "drag", make_drag, scene));
   add_fixed("plasticity", [&](const EffectOptions& options) {
     return std::make_unique<Plasticity>(

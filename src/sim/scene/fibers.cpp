@@ -35,6 +35,7 @@ struct FiberEntry {
   RodSection section;
   std::optional<std::int64_t> count;  ///< none: it is not repeated
   std::string repeat_place;
+  std::string material_defaults;  ///< values that its material leaves open; empty for none
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< of each from the one before [m]
 
   // Only known where segments are chosen.
@@ -58,20 +59,29 @@ struct FiberEntry {
   }
 };
 
+RodMaterial read_preset(const YamlField& field) {
+  return with_context(field.place(), [&] { return material_preset(field.text()); });
+}
+
 /// A preset's name, or the moduli and so on; with both, these replace the preset's.
-RodMaterial read_material(const YamlField& field, bool is_name) {
-  if (is_name) {
-    return with_context(field.place(), [&] { return material_preset(field.text()); });
+/// @param defaults the values that neither of them gives, and what is taken
+RodMaterial read_material(const YamlField& field, std::string& defaults) {
+  if (field.is_text()) {
+    return read_preset(field);
   }
   field.require_map({"preset", "youngs_modulus", "shear_modulus", "density", "bending_share"});
-  RodMaterial material;
-  if (const auto preset = field.find("preset")) {
-    material = read_material(*preset, true);
-  }
-  field.read("youngs_modulus", material.youngs_modulus);
-  field.read("shear_modulus", material.shear_modulus);
-  field.read("density", material.density);
-  field.read("bending_share", material.bending_share);
+  const auto preset = field.find("preset");
+  RodMaterial material = preset ? read_preset(*preset) : RodMaterial();
+  const auto read = [&](const char* key, double& value, const char* unit) {
+    if (!preset && !field.find(key)) {
+      defaults += format(defaults.empty() ? "" : ", ", key, " ", value, unit);
+    }
+    field.read(key, value);
+  };
+  read("youngs_modulus", material.youngs_modulus, " Pa");
+  read("shear_modulus", material.shear_modulus, " Pa");
+  read("density", material.density, " kg/m^3");
+  read("bending_share", material.bending_share, "");
   return material;
 }
 
@@ -97,7 +107,7 @@ void read_body(const YamlField& entry, bool chooses_segments, FiberEntry& fiber)
   }
   fiber.radius = entry.get("radius").number();
   const YamlField given = entry.get("material");
-  const RodMaterial material = read_material(given, given.is_text());
+  const RodMaterial material = read_material(given, fiber.material_defaults);
   fiber.section =
       with_context(given.place(), [&] { return solid_round_section(material, fiber.radius); });
 }
@@ -119,6 +129,11 @@ FiberEntry read_fiber(const YamlField& entry, bool chooses_segments) {
 
 /// Adds the rods of an entry, each moved by the offset from the one before.
 void add(const FiberEntry& entry, std::int64_t segments, SimDescription& scene) {
+  if (!entry.material_defaults.empty()) {
+    scene.material_defaults.push_back(
+        format("the material of fibre ", quote(entry.name),
+               " leaves values open, for which are taken: ", entry.material_defaults));
+  }
   const std::vector<Eigen::Vector3d> points = resample(entry.curve, segments);
   for (std::int64_t i = 0; i < entry.count.value_or(1); ++i) {
     const std::string name = entry.count ? entry.name + "_" + std::to_string(i) : entry.name;

@@ -123,8 +123,32 @@ SimTrial try_scene(const SimDescription& description, std::uint32_t threads) {
   return trial;
 }
 
+std::vector<std::string> omissions(const SimScene& scene) {
+  std::vector<std::string> found = scene.material_defaults;
+  const std::size_t obstacles = scene.environment->objects().size();
+  if (obstacles > 0 && !scene.has_effect("environment_contact")) {
+    found.push_back(format("fibres pass through the ", obstacles,
+                           " obstacle(s): the effect environment_contact is not named"));
+  }
+  if (scene.fiber_names.size() > 1 && !scene.has_effect("fiber_contact")) {
+    found.push_back(format("the ", scene.fiber_names.size(),
+                           " fibres pass through each other: the effect fiber_contact is not "
+                           "named"));
+  }
+  const bool is_only_moved =
+      std::all_of(scene.effect_names.begin(), scene.effect_names.end(),
+                  [](const std::string& effect) { return effect == "gravity"; });
+  if (!is_only_moved && !scene.has_effect("stretch") && !scene.has_effect("inextensible")) {
+    found.push_back(
+        "nothing resists stretch, so that edges may shrink to nothing or grow without limit: "
+        "neither the effect stretch nor inextensible is named");
+  }
+  return found;
+}
+
 SimReport report(const SimScene& scene, const SimTrial& trial) {
   SimReport report;
+  report.warnings = omissions(scene);
   assess_steps(scene, report);
   assess_grippers(scene, report);
   assess_trial(scene, trial, report);

@@ -28,8 +28,12 @@ struct SimReport {
   std::vector<std::string> warnings;  ///< problems, and their remedies
 };
 
-/// Judges steps against the waves that they resolve, grippers against the radius, balance and speed
-/// by the trial.
+/// Warnings of what a scene leaves out but may have meant: contacts, resistance to stretch, values
+/// of materials.
+std::vector<std::string> omissions(const SimScene& scene);
+
+/// Warns of omissions; judges steps against the waves that they resolve, grippers against the
+/// radius, balance and speed by the trial.
 SimReport report(const SimScene& scene, const SimTrial& trial);
 
 /// A problem after a frame.

@@ -44,6 +44,41 @@ TEST_F(SimSceneTest, ReportsWhatToExpect) {
   EXPECT_NE(slow.warnings[1].find("expect it to fall behind"), std::string::npos);
 }
 
+TEST_F(SimSceneTest, ReportsWhatASceneLeavesOut) {
+  const auto warnings = [&](const std::string& effects, const std::string& more = "") {
+    return sentences(omissions(read(scene_text(line, effects, more))));
+  };
+  const std::string table =
+      "environment: {obstacles: [{id: table, half_spaces: [{coef: [0, 0, 1, 1]}]}]}\n";
+  EXPECT_EQ(warnings("[gravity, stretch, bend]"), "");
+  EXPECT_EQ(warnings("[gravity]"), "") << "nothing stretches";
+  EXPECT_EQ(warnings("[gravity, stretch, environment_contact]", table), "");
+  EXPECT_EQ(warnings("[gravity, inextensible, bend]", table),
+            "fibres pass through the 1 obstacle(s): the effect environment_contact is not named\n");
+  EXPECT_EQ(warnings("[bend]"),
+            "nothing resists stretch, so that edges may shrink to nothing or grow without limit: "
+            "neither the effect stretch nor inextensible is named\n");
+
+  std::string text = scene_text(line, "[stretch]");
+  const auto with = [&](const std::string& old, const std::string& other) {
+    std::string changed = text;
+    changed.replace(changed.find(old), old.size(), other);
+    return sentences(omissions(read(changed)));
+  };
+  EXPECT_EQ(with("material: rope", "material: {youngs_modulus: 1e9, density: 900}"),
+            "the material of fibre 'cable' leaves values open, for which are taken: shear_modulus "
+            "4e+06 Pa, bending_share 1\n");
+  EXPECT_EQ(with("material: rope", "material: {preset: rope, density: 900}"), "");
+  EXPECT_EQ(with("material: rope", "material: rope\n    repeat: {count: 3, offset: [0, 1, 0]}"),
+            "the 3 fibres pass through each other: the effect fiber_contact is not named\n");
+  text = scene_text(line, "[stretch, fiber_contact]");
+  EXPECT_EQ(with("material: rope", "material: rope\n    repeat: {count: 3, offset: [0, 1, 0]}"),
+            "");
+
+  const SimReport all = report(read(scene_text(line, "[bend]")), {10, 3.0, 2, 1e-4, "", 0.04});
+  EXPECT_NE(sentences(all.warnings).find("nothing resists stretch"), std::string::npos);
+}
+
 TEST_F(SimSceneTest, TrialsAreOnCopies) {
   const SimTrial trial = try_scene(describe(scene_text(line, "[gravity, stretch, bend]")), 1);
   EXPECT_GE(trial.steps, 1U);

@@ -34,6 +34,9 @@ struct SimSettings {
 
   std::shared_ptr<const Environment> environment;  ///< never null
 
+  /// Sentences: what materials leave open, and what is taken for it.
+  std::vector<std::string> material_defaults;
+
   bool has_effect(const std::string& name) const;
   double step_length() const { return time_step / substeps; }  ///< [s]
 };
