@@ -96,7 +96,7 @@ TEST(Barrier, AHeavyLoadLeavesRoomToSolveIn) {
   while (-barrier.slope(distance) < 1000.0 * touching) {
     distance -= 1e-4 * barrier.width();
   }
-  EXPECT_GT(distance - barrier.inner, barrier.width() / 8.0);
+  EXPECT_GT(distance - barrier.inner, barrier.width() / 9.0);
 }
 
 TEST(Barrier, WhatBeginsNearerThanTheInnerDistanceMayStayOrPart) {

@@ -19,7 +19,7 @@ namespace fiber {
 ///
 /// It has the part of the barrier of Li et al. 2020 (Eq. 6), whose logarithm pushes with 1 / (1 −
 /// u) near the inner distance, where this pushes with 1 / (1 − u)⁴: a force a thousand times that
-/// where surfaces meet leaves an eighth of the width, not a thousandth of it, over which the
+/// where surfaces meet leaves a ninth of the width, not a thousandth of it, over which the
 /// stiffness hardly changes in a step of Newton's method. So one barrier holds the weight of a hair
 /// and the pull of a knot, and none has to grow stiffer while it is pressed, which would make
 /// energy.

@@ -69,8 +69,8 @@ std::optional<double> NewtonSolver::solve(Rods& rods, const Problem& problem) {
     problem.contacts->begin(rods, problem.friction, problem.references, problem.step);
   }
   evaluate_energies(rods, problem);
-  std::vector<double> max_kinetic = stored_energies(problem);
-  const double stored_before = std::accumulate(max_kinetic.begin(), max_kinetic.end(), 0.0);
+  find_stored_energies(problem, max_kinetic_);
+  const double stored_before = std::accumulate(max_kinetic_.begin(), max_kinetic_.end(), 0.0);
   if (!predict(rods, problem)) {
     return std::nullopt;
   }
@@ -103,11 +103,11 @@ std::optional<double> NewtonSolver::solve(Rods& rods, const Problem& problem) {
   }
   has_impacts_ = !impacts.empty();
   // An impact gives back no more than what the first minimum has taken.
-  const std::vector<double> stored = stored_energies(problem);
+  find_stored_energies(problem, stored_);
   if (has_impacts_) {
     const std::vector<double> kinetic = kinetic_energies(rods);
-    for (std::size_t i = 0; i < max_kinetic.size(); ++i) {
-      max_kinetic[i] += kinetic[i] - stored[i];
+    for (std::size_t i = 0; i < kinetic.size(); ++i) {
+      max_kinetic_[i] += kinetic[i] - stored_[i];
     }
   }
   for_each_pack(packs_.size(), Work::LITTLE, [&](std::size_t pack) { packs_[pack].finish(rods); });
@@ -116,9 +116,9 @@ std::optional<double> NewtonSolver::solve(Rods& rods, const Problem& problem) {
     return std::nullopt;
   }
   if (has_impacts_ && problem.has_start_rates) {
-    resolve_impacts(rods, problem, impacts, max_kinetic);
+    resolve_impacts(rods, problem, impacts);
   }
-  return std::accumulate(stored.begin(), stored.end(), 0.0) - stored_before;
+  return std::accumulate(stored_.begin(), stored_.end(), 0.0) - stored_before;
 }
 
 /// Sums the incremental potential where the rods are, by island.
@@ -148,8 +148,8 @@ void NewtonSolver::sum_energies(const Problem& problem) {
 }
 
 /// Stored energy of rods and contacts where they were evaluated last, by island [J].
-std::vector<double> NewtonSolver::stored_energies(const Problem& problem) const {
-  std::vector<double> stored(states_.size(), 0.0);
+void NewtonSolver::find_stored_energies(const Problem& problem, std::vector<double>& stored) const {
+  stored.assign(states_.size(), 0.0);
   for (std::size_t pack = 0; pack < packs_.size(); ++pack) {
     for (std::size_t lane = 0; lane < packs_[pack].rods().used; ++lane) {
       stored[islands_[pack][lane]] += packs_[pack].stored_energy(lane);
@@ -158,7 +158,6 @@ std::vector<double> NewtonSolver::stored_energies(const Problem& problem) const 
   if (problem.contacts != nullptr) {
     problem.contacts->add_stored_energies(scratch_->islands, stored);
   }
-  return stored;
 }
 
 /// The first guess: moves the rods to where inertia alone leads, as far as the bound allows, if the

@@ -97,10 +97,9 @@ class NewtonSolver {
 
   void evaluate_energies(Rods& rods, const Problem& problem);
   void sum_energies(const Problem& problem);
-  std::vector<double> stored_energies(const Problem& problem) const;
+  void find_stored_energies(const Problem& problem, std::vector<double>& stored) const;
   std::vector<double> kinetic_energies(const Rods& rods) const;
-  void resolve_impacts(Rods& rods, const Problem& problem, const std::vector<Impact>& impacts,
-                       const std::vector<double>& max_kinetic);
+  void resolve_impacts(Rods& rods, const Problem& problem, const std::vector<Impact>& impacts);
   bool predict(Rods& rods, const Problem& problem);
   void assemble(Rods& rods, const Problem& problem);
   void check_convergence(Rods& rods, const Problem& problem, std::uint32_t iteration);
@@ -123,6 +122,8 @@ class NewtonSolver {
   std::vector<EnergySum> energies_;    // by island, where its rods are
   std::vector<double> decreases_;      // by island
   bool has_impacts_ = false;
+  std::vector<double> stored_;        // energy at the end of the solve, by island [J]
+  std::vector<double> max_kinetic_;   // energy after impacts, by island [J]
   std::vector<double> trial_shares_;  // of the step, by island: bounds, then those accepted
   std::vector<SimdBatch> step_;
   LineSearch line_search_;

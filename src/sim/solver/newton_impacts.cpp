@@ -47,11 +47,10 @@ std::vector<double> NewtonSolver::kinetic_energies(const Rods& rods) const {
   return energies;
 }
 
-/// Changes the velocities by the impacts of each island.
-/// @param max_kinetic energy afterwards, by island [J]: no more than what the solve has taken
+/// Changes the velocities by the impacts of each island, which give back no more energy than the
+/// solve has taken.
 void NewtonSolver::resolve_impacts(Rods& rods, const Problem& problem,
-                                   const std::vector<Impact>& impacts,
-                                   const std::vector<double>& max_kinetic) {
+                                   const std::vector<Impact>& impacts) {
   const double coefficient = problem.friction != nullptr ? problem.friction->coefficient() : 0.0;
   const std::vector<double> kinetic = kinetic_energies(rods);
   for (std::uint32_t island = 0; island < states_.size(); ++island) {
@@ -77,7 +76,7 @@ void NewtonSolver::resolve_impacts(Rods& rods, const Problem& problem,
     }
     resolve(rods.masses, coefficient, own, rods.velocities);
     const double share = allowed_share(rods.masses, before, rods.velocities, nodes,
-                                       std::max(0.0, max_kinetic[island] - kinetic[island]));
+                                       std::max(0.0, max_kinetic_[island] - kinetic[island]));
     for (const std::uint32_t node : nodes) {
       rods.velocities[node] = before[node] + share * (rods.velocities[node] - before[node]);
     }
