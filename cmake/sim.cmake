@@ -10,9 +10,9 @@ add_library(fiber_proximity_sim SHARED
   src/sim/effects/bend.cpp
   src/sim/effects/contacts.cpp
   src/sim/effects/damping.cpp
-  src/sim/effects/section_damping.cpp
   src/sim/effects/loads.cpp
   src/sim/effects/natural_bend.cpp
+  src/sim/effects/section_damping.cpp
   src/sim/effects/stretch.cpp
   src/sim/effects/twist.cpp
   src/sim/overlaps.cpp

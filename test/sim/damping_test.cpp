@@ -106,6 +106,73 @@ double lost_by_strain_rates(const Rods& before, const Rods& after, double relaxa
   return relaxation_time / step * lost;
 }
 
+/// A step in which the middle of a rod bends, or turns against its ends, by so much.
+TEST(Damping, BesideTwistResistsTheRatesOfBendAndTwist) {
+  const auto energy_after = [](bool has_twist, double way, double angle) {
+    Rods rods;
+    rods.add(straight(Vector3d::Zero(), {0.4, 0.0, 0.0}, 4), 0.005, {1.0, 0.3, 0.7, 1.0, 0.1});
+    const auto twist = has_twist ? std::make_unique<Twist>(rods) : nullptr;
+    if (has_twist) {
+      rods.angles = {0.3, 0.3, 0.3, 0.3, 0.0};
+    }
+    Damping damping(0.02);
+    damping.begin_step(rods, {0.0, 0.01});
+    rods.positions[2].z() += way;
+    if (has_twist) {
+      rods.angles[1] += angle;
+      rods.angles[2] += angle;
+    }
+    return energy_of(damping, rods);
+  };
+  // Two nodes, a length of 0.1 m each.
+  EXPECT_NEAR(energy_after(true, 0.0, 1e-3), 0.02 / 0.01 * 0.7 / 0.1 * 1e-6, 1e-12);
+  EXPECT_NEAR(energy_after(true, 1e-3, 0.0), energy_after(false, 1e-3, 0.0), 1e-12);
+  EXPECT_GT(energy_after(true, 1e-3, 0.0), 1e-4);
+}
+
+/// Sees what rates of each solve are measured from.
+class EarlierStates : public Effect {
+ public:
+  void begin_step(Rods& rods, const TimeStep& step) override {
+    double weights = 0.0;
+    int states = 0;
+    Vector3d sum = Vector3d::Zero();
+    step.for_each_earlier(rods, [&](const RodState& state, double weight) {
+      weights += weight;
+      ++states;
+      sum += weight * state.positions.front();
+    });
+    EXPECT_NEAR(weights, 1.0, 1e-15);
+    EXPECT_LE((sum - rods.positions.front()).norm(), 1e-15);
+    counts.push_back(states);
+  }
+
+  std::vector<int> counts;
+};
+
+TEST(TimeStep, TellsEffectsTheStatesThatRatesAreMeasuredFrom) {
+  for (const Integrator integrator : {Integrator::IMPLICIT_EULER, Integrator::BDF2}) {
+    Rods rods = arc_of("rope", 5);
+    rotate(rods, Vector3d::UnitX(), Vector3d::Zero());
+    const auto seen = std::make_shared<EarlierStates>();
+    Stepper stepper(rods, {std::make_shared<Stretch>(), seen}, precise(integrator));
+    for (const double step : {0.01, 0.01, 0.02}) {
+      stepper.step(step);
+    }
+    // The first step of BDF2 has two stages, of which the second one has two states.
+    EXPECT_EQ(seen->counts, integrator == Integrator::BDF2 ? (std::vector<int>{1, 2, 2, 2})
+                                                           : (std::vector<int>{1, 1, 1}));
+  }
+}
+
+TEST(CosineAndSine, AreThoseOfTheStandardLibrary) {
+  for (double angle = -50.0; angle < 50.0; angle += 0.0137) {
+    const CosineSine found = cosine_and_sine(angle);
+    EXPECT_NEAR(found.cosine, std::cos(angle), 1e-14) << angle;
+    EXPECT_NEAR(found.sine, std::sin(angle), 1e-14) << angle;
+  }
+}
+
 /// Where rods straighten, the matrix of damping alone has negative eigenvalues: with that of bend
 /// it has none, and no more than that is taken.
 TEST(Damping, BesideBendHasAPositiveSemidefiniteMatrix) {
