@@ -8,7 +8,7 @@ The cable is clamped at one end, is let go, and swings. Its track (CSV with fram
 same swing; least squares find the stiffness and the damping with which they differ least. A camera cannot weigh, so
 that EI and ρA alone are not to be found, and need not be: the same quotient moves the same way.
 
---record makes the track that is shipped as swinging_cable.csv: a simulation with finer segments and steps, and 1 mm of
+--record makes the track that is shipped as swinging_cable.csv: a simulation with finer steps, and 1 mm of
 noise on each coordinate, as of a camera.
 """
 import argparse
@@ -61,7 +61,7 @@ def fit(track):
     def moved(logarithms):
         stiffness, relaxation_time, length = np.exp(logarithms)
         begin = [clamp, clamp + [length, 0, 0]]
-        return simulate(begin, stiffness, relaxation_time, frames, 2 * (points - 1), substeps=8)[:, ::2]
+        return simulate(begin, stiffness, relaxation_time, frames, 4 * (points - 1), substeps=8)[:, ::4]
 
     found = least_squares(lambda logarithms: (moved(logarithms) - track).ravel(), np.log([0.5, 0.05, length]),
                           diff_step=1e-3)
