@@ -33,7 +33,8 @@ void validate(const StepperOptions& options) {
 
 /// The weighted sum of two states, of all that they have.
 void combine(const std::array<WeightedState, 2>& states, RodState& sum) {
-  const auto& [first, second] = states;
+  const WeightedState& first = states.front();
+  const WeightedState& second = states.back();
   const auto add = [&](auto RodState::*part) {
     const auto& values = first.state->*part;
     const auto& others = second.state->*part;
