@@ -141,7 +141,15 @@ double ContactSet::restitution_of(std::size_t contact) const {
 
 std::vector<Impact> ContactSet::find_impacts(const Rods& rods) const {
   std::vector<Impact> found;
+  // In most steps no contact begins, and none need be looked at more closely.
   bool has_any_begun = false;
+  for (std::size_t i = 0; i < distance_count(); ++i) {
+    has_any_begun |= !was_near_[i] && energies_[i] > 0.0;
+  }
+  if (!has_any_begun) {
+    return found;
+  }
+  has_any_begun = false;
   std::vector<DistanceTerm> buffer;
   for (std::size_t i = 0; i < distance_count(); ++i) {
     if (energies_[i] == 0.0) {
