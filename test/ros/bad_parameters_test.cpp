@@ -109,7 +109,7 @@ TEST_F(BadInputTest, AnEmptyListOfInputsIsAllowedWithAWarning) {
   ros::param::set("/no_inputs/inputs", none);
   const fiber::test::TemporaryDirectory directory;
   node_test::RunningNode running({PROXIMITY_NODE, "__name:=no_inputs"}, directory.path("log"));
-  EXPECT_TRUE(ros::service::waitForService("/no_inputs/query", ros::Duration(30.0)));
+  EXPECT_TRUE(ros::service::waitForService("/no_inputs/query", ros::Duration(node_test::patience)));
   EXPECT_EQ(running.stop(), 0);
   EXPECT_NE(running.output().find("parameter /no_inputs/inputs is an empty list"),
             std::string::npos)

@@ -158,7 +158,7 @@ TEST_F(CableSimLimitsTest, ALongStepBlocksNothing) {
     auto answer = std::async(std::launch::async, [] {
       StepSimulation service;
       service.request.frames = 1000000;
-      ros::service::call("/cable_sim/step", service);
+      node_test::call_service_alone("/cable_sim/step", service);
       return service.response;
     });
     // Messages of a step before may still be on their way.

@@ -54,8 +54,9 @@ class OwnSceneTest : public ::testing::Test {
                                          const typename Service::Request& request = {}) {
     Service service;
     service.request = request;
-    EXPECT_TRUE(ros::service::waitForService("/own_sim/" + name, ros::Duration(60.0)));
-    EXPECT_TRUE(ros::service::call("/own_sim/" + name, service)) << name;
+    EXPECT_TRUE(
+        ros::service::waitForService("/own_sim/" + name, ros::Duration(node_test::patience)));
+    EXPECT_TRUE(node_test::call_service_alone("/own_sim/" + name, service)) << name;
     return service.response;
   }
   static StepSimulation::Response step(std::uint32_t frames) {
@@ -77,7 +78,7 @@ TEST_F(OwnSceneTest, SigintEndsALongStep) {
   auto answer = std::async(std::launch::async, [] {
     StepSimulation service;
     service.request.frames = 1000000;
-    ros::service::call("/own_sim/step", service);
+    node_test::call_service_alone("/own_sim/step", service);
   });
   ASSERT_TRUE(node_test::wait_for([&] { return fibers.messages.size() > 3; }));
   own_sim.send(SIGINT);

@@ -32,7 +32,7 @@ class EnginesTest : public node_test::NodeTest, public testing::WithParamInterfa
     query.request.shapes.resize(1);
     query.request.shapes[0].points.push_back(fiber_proximity_ros::to_message(center));
     query.request.shapes[0].radius = radius;
-    ASSERT_TRUE(ros::service::call("/proximity/query", query));
+    ASSERT_TRUE(node_test::call_service("/proximity/query", query));
     ASSERT_TRUE(query.response.success) << query.response.message;
     fiber::QueryOptions options;
     options.margin = query.request.margin;

@@ -54,8 +54,9 @@ class EnvironmentFixture : public ::testing::Test {
     Service service;
     service.request = request;
     // Answered by this thread, so asked by another.
-    auto called = std::async(std::launch::async,
-                             [&] { return ros::service::call(own.resolveName(name), service); });
+    auto called = std::async(std::launch::async, [&] {
+      return node_test::call_service_alone(own.resolveName(name), service);
+    });
     EXPECT_TRUE(node_test::wait_for(
         [&] { return called.wait_for(std::chrono::seconds(0)) == std::future_status::ready; }));
     EXPECT_TRUE(called.get());
@@ -148,7 +149,7 @@ class EnvironmentInputsTest : public EnvironmentFixture {
     return std::async(std::launch::async, [this, obstacles] {
       fiber_proximity::ApplyObstacles service;
       service.request.obstacles = obstacles;
-      EXPECT_TRUE(ros::service::call(own.resolveName("apply_obstacles"), service));
+      EXPECT_TRUE(node_test::call_service_alone(own.resolveName("apply_obstacles"), service));
       return service.response.message;
     });
   }

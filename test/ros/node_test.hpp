@@ -62,6 +62,13 @@ bool call_service(const std::string& name, Service& service) {
   return client.call(service);
 }
 
+/// Calls a service over a connection of its own, beside other calls to it. The connection is asked
+/// to stay: one that the server closes behind its answer may lose that answer on a busy machine.
+template <class Service>
+bool call_service_alone(const std::string& name, Service& service) {
+  return ros::service::createClient<Service>(name, true).call(service);
+}
+
 /// Keeps all messages of a topic.
 template <class Message>
 class Recorder {

@@ -17,14 +17,16 @@ class NodeletTest : public node_test::NodeTest {
     nodelet::NodeletLoad load;
     load.request.name = name;
     load.request.type = "fiber_proximity/" + type;
-    EXPECT_TRUE(ros::service::waitForService("/manager/load_nodelet", ros::Duration(30.0)));
-    return ros::service::call("/manager/load_nodelet", load) && load.response.success;
+    EXPECT_TRUE(
+        ros::service::waitForService("/manager/load_nodelet", ros::Duration(node_test::patience)));
+    return node_test::call_service_alone("/manager/load_nodelet", load) && load.response.success;
   }
 
   static bool unload(const std::string& name) {
     nodelet::NodeletUnload unload;
     unload.request.name = name;
-    return ros::service::call("/manager/unload_nodelet", unload) && unload.response.success;
+    return node_test::call_service_alone("/manager/unload_nodelet", unload) &&
+           unload.response.success;
   }
 
   /// A nodelet whose one input is on this topic.
