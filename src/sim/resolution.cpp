@@ -47,10 +47,4 @@ double swing_period(const RodSection& section, double length, double gravity) {
   return 2.0 * M_PI / std::sqrt(by_weight + by_stiffness);
 }
 
-double frame_time(std::uint64_t nodes, std::uint32_t substeps, std::uint32_t iterations,
-                  bool has_contacts) {
-  return static_cast<double>(nodes) * substeps * iterations *
-         (has_contacts ? ResolutionTable::contact_node_time : ResolutionTable::node_time);
-}
-
 }  // namespace fiber

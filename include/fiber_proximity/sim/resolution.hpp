@@ -7,9 +7,8 @@
 
 namespace fiber {
 
-/// The errors and costs of segments and steps. `sim_validation_test --gtest_filter=Resolution.*`
-/// measures the errors and compares them with these numbers; the times are about those of the
-/// package's scenes (docs/simulation.md).
+/// The errors of segments and steps. `sim_validation_test --gtest_filter=Resolution.*` measures
+/// them and compares them with these numbers.
 struct ResolutionTable {
   /// A cantilever's tip under loads that bend it by up to 80°, in parts of how far it sinks: this
   /// / segments².
@@ -24,10 +23,6 @@ struct ResolutionTable {
 
   /// BDF2 adds to a period: this (step / period)². It is (2 π)² / 3.
   static constexpr double bdf2 = 13.1594725;
-
-  /// [s] for each node and Newton iteration of a step, on one core: without contacts, and with.
-  static constexpr double node_time = 1.0e-6;
-  static constexpr double contact_node_time = 4.0e-6;
 };
 
 /// Fewest segments of a fibre so that its shape is as accurate as that.
@@ -48,9 +43,5 @@ std::uint32_t substeps_for(double accuracy, Integrator integrator, double frame,
 /// @param length  [m], > 0
 /// @param gravity [m/s²], >= 0
 double swing_period(const RodSection& section, double length, double gravity);
-
-/// Estimate of what one core takes for a frame [s].
-double frame_time(std::uint64_t nodes, std::uint32_t substeps, std::uint32_t iterations,
-                  bool has_contacts);
 
 }  // namespace fiber
