@@ -130,7 +130,7 @@ TEST_F(Simulate, ASceneThatAsksForFewIterationsHearsHowFarFromBalanceItWas) {
 }
 
 TEST_F(Simulate, ASceneInRealTimeHearsWhatIsChosen) {
-  std::string scene = "real_time: true\n" + ropes;
+  std::string scene = std::string("real_time: true\n") + ropes;
   for (std::size_t at; (at = scene.find("segments:")) != std::string::npos;) {
     const std::size_t end = scene.find_first_of(",\n", at);
     scene.erase(at, end - at + 1);
