@@ -19,7 +19,7 @@ constexpr double trial_time = 3.0;
 
 /// The accuracies to choose from fall from the coarsest by this factor, to the finest.
 constexpr double accuracy_ratio = 0.9;
-constexpr double finest_accuracy = 1e-5;
+constexpr double finest_accuracy = 1e-4;
 
 struct Measurement {
   Resolution resolution;

@@ -15,7 +15,7 @@ struct Resolution {
 };
 
 /// The coarsest resolution that real_time chooses.
-constexpr Resolution coarsest_resolution{0.2, 0.2};
+constexpr Resolution coarsest_resolution{0.5, 0.5};
 
 /// The part of the time there is that real_time aims at: the rest is for messages, and for whatever
 /// else runs.

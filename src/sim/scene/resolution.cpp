@@ -1,6 +1,7 @@
 #include "src/sim/scene/resolution.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -53,18 +54,25 @@ SceneResolution::SceneResolution(const YamlField& document, double gravity)
   }
 }
 
-/// The substeps given, or chosen for an accuracy: of the fibre that swings fastest.
+/// The substeps given, or chosen for an accuracy by the fibre that swings fastest; with contacts,
+/// at least as many as the thinnest fibre needs.
 std::uint32_t SceneResolution::substeps_for(const SimDescription& scene, double accuracy) const {
   if (given_substeps_) {
     return *given_substeps_;
   }
   double period = std::numeric_limits<double>::infinity();
+  double longest = scene.time_step;  // of steps [s]
   for (const FiberEntry& fiber : fibers_) {
     if (fiber.length > 0.0) {  // or it is refused when it is cut
       period = std::min(period, swing_period(fiber.section, fiber.length, gravity_));
     }
+    if (scene.has_contacts) {
+      longest = std::min(longest, max_contact_step(fiber.radius, gravity_));
+    }
   }
-  return fiber::substeps_for(accuracy, scene.options.integrator, scene.time_step, period);
+  const double for_contacts = std::ceil(scene.time_step / longest);
+  return std::max(static_cast<std::uint32_t>(std::min(for_contacts, 1.0 + max_substeps)),
+                  fiber::substeps_for(accuracy, scene.options.integrator, scene.time_step, period));
 }
 
 SimDescription SceneResolution::cut(const SimDescription& scene,

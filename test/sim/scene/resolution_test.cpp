@@ -17,6 +17,11 @@ TEST_F(SimSceneTest, AccuracyChoosesSegmentsAndSubsteps) {
   EXPECT_NEAR(fine.substeps, 100.0 * coarse.substeps, 100.0);
   EXPECT_LT(second_order.substeps, fine.substeps);
   EXPECT_EQ(fine.accuracy, 0.001);
+  // With contacts, steps are no longer than 10 mm of radius allow.
+  EXPECT_EQ(read(open_text(line, "accuracy: 50 %\nintegrator: bdf2\n")).substeps, 1U);
+  std::string touching = open_text(line, "accuracy: 50 %\nintegrator: bdf2\n");
+  touching.replace(touching.find("bend]"), 5, "bend, self_contact]");
+  EXPECT_EQ(read(touching).substeps, 2U);
   // Given segments stay; a fibre that turns needs more.
   const SimScene given = read(scene_text(line, "[stretch]", "accuracy: 1 %\nsubsteps: 7\n"));
   EXPECT_EQ(segments(given), 4U);
@@ -87,8 +92,8 @@ TEST_F(SimSceneTest, WhatCannotBeHadInRealTimeSaysSo) {
   const SimDescription scene = describe(open_text(line, "real_time: true\n"), takes(0.01, 1));
   EXPECT_EQ(scene.real_time_note, "");
   EXPECT_EQ(scene.real_time_warning.find("real_time: the scene cannot be had in real time; it "
-                                         "takes 2.4 of the time there is on one core, with 1 "
-                                         "substeps, 3 segments of fibre 'cable'"),
+                                         "takes 3.6 of the time there is on one core, with 1 "
+                                         "substeps, 5 segments of fibre 'cable'"),
             0U)
       << scene.real_time_warning;
   EXPECT_EQ(omissions(make_sim_scene(scene, 1)).front(), scene.real_time_warning);
@@ -107,7 +112,7 @@ TEST_F(SimSceneTest, NumbersThatTakeForEverAreRefused) {
                       "coarser: it takes "),
             0U);
   EXPECT_EQ(error(open_text(line, "accuracy: 1e-13\nsubsteps: 4\n")),
-            "2: fibers[0]: the scene's accuracy takes 3741658 segments, 1000000 are the most "
+            "2: fibers[0]: the scene's accuracy takes 9486833 segments, 1000000 are the most "
             "(fibre 'cable')");
   EXPECT_LE(describe(open_text("{line: {from: [0, 0, 0], to: [0.01, 0, 0]}}", "real_time: true\n"),
                      takes(1e-9))
