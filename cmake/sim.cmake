@@ -39,7 +39,9 @@ add_library(sim_scene OBJECT
   src/sim/scene/force_file.cpp
   src/sim/scene/holds.cpp
   src/sim/scene/reach.cpp
+  src/sim/scene/real_time.cpp
   src/sim/scene/report.cpp
+  src/sim/scene/resolution.cpp
   src/sim/scene/scene.cpp
   src/sim/scene/shapes.cpp
 )
