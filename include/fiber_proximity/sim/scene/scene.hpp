@@ -104,7 +104,7 @@ struct SimDescription : SimSettings {
 /// Reads a scene with the keys fibers, effects, environment (read_environment_scene()), frame_id,
 /// time_step, substeps, iterations, residual, integrator, accuracy, real_time, initial_overlap,
 /// max_strain.
-/// docs/simulation.md says what they mean.
+/// docs/scene_keys.md says what they mean.
 /// @throws std::invalid_argument naming file, line, field and value, and what is allowed; and the
 ///         fibre where it is about one
 SimDescription read_sim_scene(const YamlField& document, const MeshSource& meshes);
