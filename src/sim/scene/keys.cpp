@@ -34,7 +34,10 @@ SceneKey other_key(const char* name, const std::string& allowed, const std::stri
 
 SceneKey number_key(const char* name, const KeyLimits& limits, const std::string& by_default,
                     const char* unit, const char* text) {
-  return {name, "a number " + limits.text(), by_default, unit, text, {}, limits};
+  return {name,       (limits.excludes_min ? "a number " : "a number of ") + limits.text(),
+          by_default, unit,
+          text,       {},
+          limits};
 }
 
 SceneKey number_key(const char* name, const KeyLimits& limits, double by_default, const char* unit,
