@@ -38,6 +38,7 @@ add_library(sim_scene OBJECT
   src/sim/scene/fibers.cpp
   src/sim/scene/force_file.cpp
   src/sim/scene/holds.cpp
+  src/sim/scene/keys.cpp
   src/sim/scene/reach.cpp
   src/sim/scene/real_time.cpp
   src/sim/scene/report.cpp

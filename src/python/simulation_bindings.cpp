@@ -180,7 +180,7 @@ One thread at a time works with a simulation, others wait.
 Parameters
 ----------
 scene : str or os.PathLike of a YAML file, or a dict of the same fields
-    docs/simulation.md says what they mean. Arrays of numpy may stand for lists.
+    docs/scene_keys.md says what they mean. Arrays of numpy may stand for lists.
 folder : str or os.PathLike, optional
     Where paths of meshes begin; that of the file by default.
 threads : int, default 0

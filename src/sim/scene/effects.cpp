@@ -1,4 +1,4 @@
-// The one place that knows which effects there are, their options, and how they are made.
+// How effects are read and made. Which there are and their options: keys.cpp.
 
 #include "fiber_proximity/sim/effects.hpp"
 
@@ -9,6 +9,7 @@
 
 #include "fiber_proximity/sim/contacts.hpp"
 #include "src/sim/effects/natural_bend.hpp"
+#include "src/sim/scene/keys.hpp"
 #include "src/sim/scene/parts.hpp"
 #include "src/text/join.hpp"
 #include "src/text/quote.hpp"
@@ -20,33 +21,19 @@ namespace {
 /// All effects, with their numeric options by default.
 const std::map<std::string, EffectOptions>& known_effects() {
   static const auto effects = [] {
-    const Drag::Options drag;
-    const Friction::Options friction;
-    const Plasticity::Options plasticity;
-    const EffectOptions contact{{"restitution", {default_restitution}}, {"stiffness", {0.0}}};
-    return std::map<std::string, EffectOptions>{
-        {"attachment", {}},
-        {"bend", {}},
-        {"damping", {{"relaxation_time", {0.01}}}},
-        {"drag",
-         {{"fluid_density", {drag.fluid_density}},
-          {"across", {drag.across}},
-          {"along", {drag.along}},
-          {"wind.mean", {0.0, 0.0, 0.0}},
-          {"wind.gust", {0.0, 0.0, 0.0}},
-          {"wind.gust_period", {drag.wind.gust_period}},
-          {"wind.gust_length", {drag.wind.gust_length}}}},
-        {"environment_contact", contact},
-        {"fiber_contact", contact},
-        {"friction",
-         {{"coefficient", {friction.coefficient}}, {"stick_speed", {friction.stick_speed}}}},
-        {"gravity", {{"acceleration", {0.0, 0.0, -9.81}}}},
-        {"inextensible", {}},
-        {"plasticity",
-         {{"yield_strain", {plasticity.yield_strain}}, {"hardening", {plasticity.hardening}}}},
-        {"self_contact", contact},
-        {"stretch", {}},
-        {"twist", {}}};
+    std::map<std::string, EffectOptions> known;
+    for (const SceneMap& map : scene_maps()) {
+      if (!map.is_effect) {
+        continue;
+      }
+      EffectOptions& options = known[map.name];
+      for (const SceneKey& key : map.keys) {
+        if (!key.numbers.empty()) {
+          options[key.name] = key.numbers;
+        }
+      }
+    }
+    return known;
   }();
   return effects;
 }
@@ -216,7 +203,7 @@ double read_curvature(const YamlField& field) {
 }
 
 SimCurvature read_natural_curvature(const YamlField& bend, bool has_twist) {
-  bend.require_map({"natural_curvature", "towards"});
+  bend.require_map(key_names("bend"));
   const auto given = bend.find("natural_curvature");
   const auto towards = bend.find("towards");
   SimCurvature read;

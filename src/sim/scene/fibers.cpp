@@ -5,14 +5,12 @@
 #include <set>
 
 #include "fiber_proximity/sim/resolution.hpp"
+#include "src/sim/scene/keys.hpp"
 #include "src/sim/scene/parts.hpp"
 #include "src/text/with_context.hpp"
 
 namespace fiber {
 namespace {
-
-constexpr std::int64_t max_segments = 1000000;  // of all fibres together, too
-constexpr std::int64_t max_repeats = 100000;
 
 /// The number of segments in which the turning of a curve is measured.
 constexpr std::int64_t fine_segments = 1000;
@@ -27,7 +25,7 @@ RodMaterial read_material(const YamlField& field, std::string& defaults) {
   if (field.is_text()) {
     return read_preset(field);
   }
-  field.require_map({"preset", "youngs_modulus", "shear_modulus", "density", "bending_share"});
+  field.require_map(key_names("material"));
   const auto preset = field.find("preset");
   RodMaterial material = preset ? read_preset(*preset) : RodMaterial();
   const auto read = [&](const char* key, double& value, const char* unit) {
@@ -71,13 +69,13 @@ void read_body(const YamlField& entry, bool chooses_segments, FiberEntry& fiber)
 }
 
 FiberEntry read_fiber(const YamlField& entry, bool chooses_segments) {
-  entry.require_map({"name", "shape", "segments", "radius", "material", "repeat"});
+  entry.require_map(key_names("fiber"));
   FiberEntry fiber;
   fiber.name = entry.get("name").text();
   fiber.place = entry.place();
   with_fiber_name(fiber.name, [&] { read_body(entry, chooses_segments, fiber); });
   if (const auto repeat = entry.find("repeat")) {
-    repeat->require_map({"count", "offset"});
+    repeat->require_map(key_names("repeat"));
     fiber.repeat_place = repeat->place();
     fiber.count = repeat->get("count").integer(1, max_repeats);
     fiber.offset = repeat->get("offset").vector();

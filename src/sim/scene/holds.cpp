@@ -5,6 +5,7 @@
 #include <set>
 
 #include "src/geometry/smallest_rotation.hpp"
+#include "src/sim/scene/keys.hpp"
 #include "src/sim/scene/parts.hpp"
 #include "src/text/join.hpp"
 #include "src/text/quote.hpp"
@@ -90,7 +91,7 @@ void read_waypoint(const YamlField& entry, SimWaypoint& waypoint) {
 Waypoints read_path(const YamlField& list, SimWaypoint waypoint) {
   Waypoints path;
   for (const YamlField& entry : list.items()) {
-    entry.require_map({"time", "position", "tangent", "director"});
+    entry.require_map(key_names("waypoint"));
     const YamlField time = entry.get("time");
     waypoint.time = time.number();
     if (!std::isfinite(waypoint.time)) {
@@ -210,8 +211,7 @@ Placement placement_at(const PlacementPath& path, double time) {
 void read_holds(const YamlField& list, SimDescription& scene) {
   HeldPlaces places;
   for (const YamlField& entry : list.items()) {
-    entry.require_map({"fiber", "node", "kind", "position", "tangent", "director", "path", "period",
-                       "frame", "max_force"});
+    entry.require_map(key_names("attachment"));
     for (const std::uint32_t rod : find_fibers(entry.get("fiber"), scene.fibers)) {
       with_fiber_name(scene.fibers[rod].name, [&] {
         SimHold hold = read_hold(entry, rod, scene.rods);

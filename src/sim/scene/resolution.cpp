@@ -6,12 +6,11 @@
 #include <utility>
 
 #include "fiber_proximity/sim/resolution.hpp"
+#include "src/sim/scene/keys.hpp"
 #include "src/sim/scene/parts.hpp"
 
 namespace fiber {
 namespace {
-
-constexpr std::uint32_t max_substeps = 1000;
 
 double read_accuracy(const YamlField& field) {
   constexpr const char* allowed = "above 0 and at most 0.5, or 50 %";

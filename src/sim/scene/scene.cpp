@@ -8,6 +8,7 @@
 
 #include "fiber_proximity/environment/scene/environment_scene.hpp"
 #include "src/sim/overlaps.hpp"
+#include "src/sim/scene/keys.hpp"
 #include "src/sim/scene/parts.hpp"
 #include "src/sim/scene/reach.hpp"
 #include "src/sim/scene/resolution.hpp"
@@ -191,28 +192,16 @@ std::string resolve_overlaps(const SimDescription& scene, const Attachment* atta
 
 namespace {
 
-/// [s] A timer calls for frames, which needs some time itself.
-constexpr double shortest_frame = 1e-6;
-constexpr double longest_frame = 1000.0;
-
-constexpr std::int64_t max_iterations = 1000;
-
-/// [m/s] Smaller residuals are rounding errors, and with larger ones nothing would ever move.
-constexpr double min_residual = 1e-9;
-constexpr double max_residual = 1.0;
-
-/// Reads a number above 0 and in [min, max], if the key is there.
-void read_within(const YamlField& document, const char* key, double min, double max,
-                 double& value) {
+/// Reads a number within its limits, if the key is there.
+void read_within(const YamlField& document, const char* key, double& value) {
   const auto field = document.find(key);
   if (!field) {
     return;
   }
   value = field->number();
-  if (!(value > 0.0 && value >= min && value <= max)) {
-    std::ostringstream allowed;
-    allowed << (min > 0.0 ? "at least " : "above ") << min << " and at most " << max;
-    field->refuse(allowed.str());
+  const KeyLimits& limits = key_limits("scene", key);
+  if (!limits.contain(value)) {
+    field->refuse(limits.text());
   }
 }
 
@@ -220,7 +209,7 @@ void read_stepper_options(const YamlField& document, StepperOptions& options) {
   if (const auto iterations = document.find("iterations")) {
     options.max_iterations = static_cast<std::uint32_t>(iterations->integer(1, max_iterations));
   }
-  read_within(document, "residual", min_residual, max_residual, options.residual);
+  read_within(document, "residual", options.residual);
   if (read_choice(document.find("integrator"), "implicit_euler", "bdf2")) {
     options.integrator = Integrator::BDF2;
   }
@@ -262,15 +251,13 @@ const SimEffect* SimDescription::find_effect(const std::string& name) const {
 
 SimDescription read_sim_scene(const YamlField& document, const MeshSource& meshes,
                               const FrameTimer& timer) {
-  document.require_map({"frame_id", "time_step", "substeps", "iterations", "residual", "integrator",
-                        "accuracy", "real_time", "fibers", "effects", "environment",
-                        "initial_overlap", "max_strain"});
+  document.require_map(key_names("scene"));
   SimDescription scene;
   if (const auto frame_id = document.find("frame_id")) {
     scene.frame_id = frame_id->text();
   }
-  read_within(document, "time_step", shortest_frame, longest_frame, scene.time_step);
-  read_within(document, "max_strain", 0.0, 10.0, scene.max_strain);
+  read_within(document, "time_step", scene.time_step);
+  read_within(document, "max_strain", scene.max_strain);
   const auto holds = read_effects(document.get("effects"), scene);
   read_stepper_options(document, scene.options);
   const SceneResolution resolution(document, gravity_of(scene));

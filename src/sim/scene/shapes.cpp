@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 
+#include "src/sim/scene/keys.hpp"
 #include "src/sim/scene/parts.hpp"
 
 namespace fiber {
@@ -32,7 +33,7 @@ double positive(const YamlField& field) {
 }
 
 Points read_line(const YamlField& options) {
-  options.require_map({"from", "to"});
+  options.require_map(key_names("shape line"));
   return {options.get("from").vector(), options.get("to").vector()};
 }
 
@@ -48,7 +49,7 @@ double half_angle(double ratio) {
 }
 
 Points read_arc(const YamlField& options) {
-  options.require_map({"from", "to", "length", "towards"});
+  options.require_map(key_names("shape arc"));
   const Vector3d from = options.get("from").vector();
   const Vector3d chord = options.get("to").vector() - from;
   const YamlField length = options.get("length");
@@ -74,7 +75,7 @@ Points read_arc(const YamlField& options) {
 }
 
 Points read_helix(const YamlField& options) {
-  options.require_map({"center", "radius", "pitch", "turns"});
+  options.require_map(key_names("shape helix"));
   const Vector3d center = options.get("center").vector();
   const double radius = positive(options.get("radius"));
   const double pitch = options.get("pitch").number();
@@ -145,7 +146,7 @@ Points make_trefoil() {
 
 Points read_trefoil(const YamlField& options) {
   static const Points trefoil = make_trefoil();  // rounding its corners takes a while
-  options.require_map({"center", "size"});
+  options.require_map(key_names("shape trefoil"));
   const Vector3d center = options.get("center").vector();
   const double size = positive(options.get("size"));
   constexpr double width = 6.0;

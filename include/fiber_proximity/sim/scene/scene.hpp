@@ -113,7 +113,7 @@ using FrameTimer = std::function<std::vector<double>(const SimDescription& scene
 /// Reads a scene with the keys fibers, effects, environment (read_environment_scene()), frame_id,
 /// time_step, substeps, iterations, residual, integrator, accuracy, real_time, initial_overlap,
 /// max_strain.
-/// docs/simulation.md says what they mean.
+/// docs/scene_keys.md says what they mean.
 /// @param timer for scenes with `real_time`, whose segments and substeps are chosen by it; without
 ///              one, the processor time of this thread is measured, for about two seconds
 /// @throws std::invalid_argument naming file, line, field and value, and what is allowed; and the
