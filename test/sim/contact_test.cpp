@@ -211,7 +211,7 @@ TEST(FrictionContacts, TheGradientIsThatOfTheEnergy) {
     const auto table = environment_of(HalfSpaceShape{Vector3d::UnitZ(), -rod_radius});
     const auto contacts = contacts_with(round % 2 == 0 ? nullptr : table, 0.4);
     ContactSet found = contacts_of(*contacts, start);
-    found.begin(start, contacts->friction(), start.positions, step_length);
+    found.begin(start, contacts->friction(), start, step_length);
     Rods rods = start;
     const double slip = std::pow(10.0, random.uniform(-6.0, -4.0));
     for (Vector3d& position : rods.positions) {
@@ -230,6 +230,47 @@ TEST(FrictionContacts, TheGradientIsThatOfTheEnergy) {
   }
 }
 
+/// With twist, friction acts at the surface: on sections and edges as well.
+TEST(FrictionContacts, OnSectionsItsDerivativesAreThoseOfTheEnergy) {
+  SCOPED_TRACE(seed_message());
+  Random random(2);
+  for (int round = 0; round < 10; ++round) {
+    SCOPED_TRACE("round " + std::to_string(round));
+    Rods start = crossed_rods(random, 3);
+    const Twist twist(start);
+    const auto table = environment_of(HalfSpaceShape{Vector3d::UnitZ(), -rod_radius});
+    const auto contacts = contacts_with(round % 2 == 0 ? nullptr : table, 0.4);
+    ContactSet found = contacts_of(*contacts, start);
+    ContactSet smooth = found;
+    found.begin(start, contacts->friction(), start, step_length);
+    smooth.begin(start, nullptr, start, step_length);
+    Rods rods = start;
+    const double slip = std::pow(10.0, random.uniform(-6.0, -4.0));
+    for (std::size_t node = 0; node < rods.positions.size(); ++node) {
+      rods.positions[node] += random.in_cube(slip);
+      rods.angles[node] += random.uniform(-slip, slip) / rod_radius;
+    }
+    const auto friction_at = [&](const Rods& r) {
+      FullSystem all = full_system(found, r);
+      const FullSystem without = full_system(smooth, r);
+      all.gradient -= without.gradient;
+      all.hessian -= without.hessian;
+      return all;
+    };
+    const FullSystem friction = friction_at(rods);
+    const VectorXd expected = gradient_by_differences(
+        rods, [&](const Rods& r) { return energy_in(found, r) - energy_in(smooth, r); }, 1e-8);
+    EXPECT_GT(friction.gradient.norm(), 0.0);
+    ASSERT_LE((friction.gradient - expected).norm(), 1e-4 * friction.gradient.norm());
+    for (Eigen::Index i = 0; i < expected.size(); ++i) {
+      const VectorXd column = gradient_by_differences(
+          rods, [&](const Rods& r) { return friction_at(r).gradient[i]; }, 1e-8);
+      ASSERT_LE((friction.hessian.col(i) - column).norm(), 1e-3 * friction.hessian.norm())
+          << "column " << i;
+    }
+  }
+}
+
 /// However edges share a contact between them, friction is the coefficient times what presses.
 TEST(FrictionContacts, ARodThatSlidesAcrossAnotherHasItsCoefficient) {
   for (const double length : {0.5 * rod_radius, 2.0 * rod_radius, 10.0 * rod_radius}) {
@@ -242,7 +283,7 @@ TEST(FrictionContacts, ARodThatSlidesAcrossAnotherHasItsCoefficient) {
       start.add(straight(shift - y, shift + y, 20), rod_radius, rubber(rod_radius));
       const auto contacts = contacts_with(nullptr, 0.4);
       ContactSet found = contacts_of(*contacts, start);
-      found.begin(start, contacts->friction(), start.positions, step_length);
+      found.begin(start, contacts->friction(), start, step_length);
       Rods rods = start;
       for (std::uint32_t i = rods.first(1); i < rods.end(1); ++i) {
         rods.positions[i].y() += 1e-4;  // along itself: what presses stays as it is

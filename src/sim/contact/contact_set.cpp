@@ -16,10 +16,6 @@ using Eigen::Vector3d;
 
 namespace {
 
-Vector3d point_at(const std::vector<Vector3d>& values, std::uint32_t edge, double parameter) {
-  return (1.0 - parameter) * values[edge] + parameter * values[edge + 1];
-}
-
 // Contacts are numbered: first those with obstacles, then those of pairs, then those with friction.
 // Threads take them in chunks, which do not depend on the number of threads.
 constexpr std::size_t chunk = 64;
@@ -71,11 +67,11 @@ void ContactSet::for_each_term(const Rods& rods, std::size_t index,
   }
 }
 
-void ContactSet::begin(const Rods& rods, const Friction* friction,
-                       const std::vector<Vector3d>& references, double step) {
+void ContactSet::begin(const Rods& rods, const Friction* friction, const RodState& reference,
+                       double step) {
   frictions_.clear();
   friction_ = friction;
-  references_ = &references;
+  reference_ = &reference;
   step_ = step;
   update_distances(rods);
   relax_initial_overlap(rods);
@@ -102,12 +98,16 @@ std::vector<ContactSet::FrictionPoint> ContactSet::find_friction(const Rods& rod
     for (std::size_t i = begin; i < end; ++i) {
       for_each_term(rods, i, buffer, [&](const ContactPoints& points, const DistanceTerm& term) {
         if (term.pressure > 0.0) {
-          Vector3d reference = point_at(*references_, points.edge_a, points.s);
+          Vector3d reference = point_at(reference_->positions, points.edge_a, points.s);
           if (points.is_of_rods()) {
-            reference -= point_at(*references_, points.edge_b, points.t);
+            reference -= point_at(reference_->positions, points.edge_b, points.t);
+          }
+          const auto levers = surface_levers(rods, points, term.normal);
+          if (levers) {
+            reference += lever_motion(*levers, points, reference_->positions, reference_->angles);
           }
           by_chunk[index].push_back(
-              {points, term.normal, friction_->coefficient() * term.pressure, reference});
+              {points, term.normal, friction_->coefficient() * term.pressure, reference, levers});
         }
       });
     }
@@ -177,6 +177,9 @@ Vector3d ContactSet::FrictionPoint::slip(const Rods& rods) const {
   if (points.is_of_rods()) {
     moved -= point_at(rods.positions, points.edge_b, points.t);
   }
+  if (levers) {
+    moved += lever_motion(*levers, points, rods.positions, rods.angles);
+  }
   return moved - normal * normal.dot(moved);
 }
 
@@ -241,7 +244,7 @@ void ContactSet::find_terms(const Rods& rods, std::size_t contact, std::vector<D
     terms.push_back({points, term.slope * term.normal,
                      (term.curvature - term.across) * term.normal * term.normal.transpose() +
                          term.across * Matrix3d::Identity(),
-                     term.turning > 0.0 ? term.turning / (term.slope * term.slope) : 0.0});
+                     term.turning > 0.0 ? term.turning / (term.slope * term.slope) : 0.0, nullptr});
   };
   if (contact < distance_count()) {
     for_each_term(rods, contact, found, add);
@@ -257,8 +260,8 @@ void ContactSet::find_terms(const Rods& rods, std::size_t contact, std::vector<D
     const Vector3d along = slip / length;
     hessian += (law.curvature - law.resistance) * along * along.transpose();
   }
-  terms.push_back(
-      {point.points, point.max_force * law.resistance * slip, point.max_force * hessian, 0.0});
+  terms.push_back({point.points, point.max_force * law.resistance * slip, point.max_force * hessian,
+                   0.0, point.levers ? &*point.levers : nullptr});
 }
 
 void ContactSet::find_derivatives(const Rods& rods) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -41,11 +42,10 @@ class ContactSet {
 
   /// Begins a step where the rods are: contacts that press there have friction, by the forces with
   /// which they press.
-  /// @param friction   null for none; must outlive the step
-  /// @param references of nodes: slips are measured from there [m]; must outlive the step
-  /// @param step       [s]
-  void begin(const Rods& rods, const Friction* friction,
-             const std::vector<Eigen::Vector3d>& references, double step);
+  /// @param friction  null for none; must outlive the step
+  /// @param reference slips are measured from there; must outlive the step
+  /// @param step      [s]
+  void begin(const Rods& rods, const Friction* friction, const RodState& reference, double step);
 
   /// Makes the friction of some islands that of the normal forces where the rods are now, whose
   /// distances have been found, and updates its energies.
@@ -86,6 +86,7 @@ class ContactSet {
   /// Finds the derivatives at the current distances.
   void find_derivatives(const Rods& rods);
 
+  /// Valid until friction is updated.
   const ContactTerms& terms() const { return terms_; }
 
   /// Shortens each island's share of a step: no distance may lose more than four fifths of its
@@ -106,8 +107,9 @@ class ContactSet {
   struct FrictionPoint {
     ContactPoints points;
     Eigen::Vector3d normal;
-    double max_force;           // [N]
-    Eigen::Vector3d reference;  // from the point of b to that of a, where slips begin [m]
+    double max_force;                     // [N]
+    Eigen::Vector3d reference;            // from the point of b to that of a, where slips begin [m]
+    std::optional<SurfaceLevers> levers;  // from the axes to where it acts; none: on the axes
 
     Eigen::Vector3d slip(const Rods& rods) const;
   };
@@ -132,7 +134,7 @@ class ContactSet {
   std::vector<FrictionPoint> frictions_;
   std::vector<Impact> impacts_;  // of the step
   const Friction* friction_ = nullptr;
-  const std::vector<Eigen::Vector3d>* references_ = nullptr;
+  const RodState* reference_ = nullptr;
   double step_ = 0.0;          // [s]
   double stick_length_ = 0.0;  // [m]
   ContactTerms terms_;

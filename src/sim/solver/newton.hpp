@@ -40,11 +40,11 @@ class NewtonSolver {
   struct Problem {
     const Effects& effects;
     const StepperOptions& options;
-    double step;                                     ///< [s]
-    ContactSet* contacts;                            ///< null for none
-    const TravelBound* travel_bound;                 ///< null: rods may go anywhere
-    const Friction* friction;                        ///< null for none
-    const std::vector<Eigen::Vector3d>& references;  ///< where rates are measured from, by node [m]
+    double step;                      ///< [s]
+    ContactSet* contacts;             ///< null for none
+    const TravelBound* travel_bound;  ///< null: rods may go anywhere
+    const Friction* friction;         ///< null for none
+    const RodState& reference;        ///< where rates are measured from
     bool has_start_rates;  ///< whether that is the start: only such a step resolves its impacts
   };
 

@@ -199,7 +199,7 @@ void StageSolver::solve_group(Rods& rods, const Effects& effects, double step, G
   const Friction* const friction = bounds ? contacts_->friction() : nullptr;
   const std::optional<double> gain =
       solver->solve(rods, {effects, options_, step, bounds ? &group.contacts : nullptr,
-                           travel_bound, friction, reference_.positions, has_start_rates_});
+                           travel_bound, friction, reference_, has_start_rates_});
   group.is_solved = gain.has_value();
   group.stored_gain = gain.value_or(0.0);
   group.has_impacts = solver->has_impacts();
