@@ -83,24 +83,36 @@ inline FullSystem full_system(ContactSet& contacts, const Rods& rods) {
   return full;
 }
 
-/// The gradient of an energy by the unknowns of rods, by central differences [m or rad].
-template <class Energy>
-Eigen::VectorXd gradient_by_differences(Rods rods, const Energy& energy, double difference) {
+/// The derivatives of a number or a vector by the unknowns of rods, by central differences [m or
+/// rad]: one column each.
+template <class Function>
+Eigen::MatrixXd derivatives_by_differences(Rods rods, const Function& function, double difference) {
   const std::size_t unknowns = rods.angles.empty() ? 3 : 4;
-  Eigen::VectorXd gradient(static_cast<Eigen::Index>(unknowns * rods.positions.size()));
-  for (Eigen::Index i = 0; i < gradient.size(); ++i) {
-    const std::size_t node = static_cast<std::size_t>(i) / unknowns;
-    const std::size_t part = static_cast<std::size_t>(i) % unknowns;
+  Eigen::MatrixXd derivatives;
+  for (std::size_t i = 0; i < unknowns * rods.positions.size(); ++i) {
+    const std::size_t node = i / unknowns;
+    const std::size_t part = i % unknowns;
     double& x =
         part == 3 ? rods.angles[node] : rods.positions[node][static_cast<Eigen::Index>(part)];
     const double middle = x;
     x = middle + difference;
-    const double after = energy(rods);
+    const Eigen::VectorXd after = function(rods);
     x = middle - difference;
-    gradient[i] = (after - energy(rods)) / (2.0 * difference);
+    const Eigen::VectorXd before = function(rods);
     x = middle;
+    derivatives.conservativeResize(after.size(), static_cast<Eigen::Index>(i + 1));
+    derivatives.rightCols(1) = (after - before) / (2.0 * difference);
   }
-  return gradient;
+  return derivatives;
+}
+
+/// The gradient of an energy by the unknowns of rods, by central differences [m or rad].
+template <class Energy>
+Eigen::VectorXd gradient_by_differences(const Rods& rods, const Energy& energy, double difference) {
+  const auto as_vector = [&energy](const Rods& r) {
+    return Eigen::VectorXd::Constant(1, energy(r));
+  };
+  return derivatives_by_differences(rods, as_vector, difference).transpose();
 }
 
 }  // namespace fiber::test
