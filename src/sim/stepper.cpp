@@ -57,8 +57,7 @@ double kinetic_energy(const Rods& rods) {
     for (std::uint32_t i = rods.first(rod); i < rods.end(rod); ++i) {
       energy += 0.5 * rods.masses[i] * rods.velocities[i].squaredNorm();
       if (!rods.spins.empty()) {
-        const double inertia = rods.sections[rod].inertia_per_length * rods.rest_lengths[i];
-        energy += 0.5 * inertia * rods.spins[i] * rods.spins[i];
+        energy += 0.5 * rods.section_inertia(rod, i) * rods.spins[i] * rods.spins[i];
       }
     }
   }

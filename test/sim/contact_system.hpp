@@ -31,21 +31,22 @@ inline double energy_in(ContactSet& contacts, const Rods& rods) {
   return energies[0].energy;
 }
 
-/// The contacts' part of the equations of all rods, as full vectors and matrices: x, y and z node
-/// by node.
+/// The contacts' part of the equations of all rods, as full vectors and matrices: x, y, z and with
+/// twist the angle, node by node.
 struct FullSystem {
   Eigen::VectorXd gradient;
   Eigen::MatrixXd hessian;
 };
 
 inline FullSystem full_system(ContactSet& contacts, const Rods& rods) {
-  const auto size = static_cast<Eigen::Index>(3 * rods.positions.size());
+  const std::size_t unknowns = rods.angles.empty() ? 3 : 4;
+  const auto size = static_cast<Eigen::Index>(unknowns * rods.positions.size());
   std::vector<PackSystem> packs(rods.count());
   std::vector<RodSystem> systems;
   systems.reserve(rods.count());
   std::vector<RodSystem*> pointers;
   for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
-    packs[rod].resize(rods.node_count(rod), 3);
+    packs[rod].resize(rods.node_count(rod), unknowns);
     packs[rod].set_zero();
     systems.emplace_back(packs[rod], rod % lane_count);
     pointers.push_back(&systems.back());
@@ -55,12 +56,12 @@ inline FullSystem full_system(ContactSet& contacts, const Rods& rods) {
   add_derivatives(contacts.terms(), rods, pointers, std::vector<std::uint32_t>(rods.count(), 0), 0);
   FullSystem full{Eigen::VectorXd::Zero(size), Eigen::MatrixXd::Zero(size, size)};
   for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
-    const std::size_t first = std::size_t{3} * rods.first(rod);
+    const std::size_t first = unknowns * rods.first(rod);
     const std::size_t count = packs[rod].size();
     for (std::size_t c = 0; c < count; ++c) {
       const auto column = static_cast<Eigen::Index>(first + c);
       full.gradient[column] = systems[rod].gradient(c);
-      for (std::size_t r = c; r < std::min(count, c + half_bandwidth(3) + 1); ++r) {
+      for (std::size_t r = c; r < std::min(count, c + half_bandwidth(unknowns) + 1); ++r) {
         const auto row = static_cast<Eigen::Index>(first + r);
         full.hessian(row, column) = full.hessian(column, row) = systems[rod].hessian(r, c);
       }
@@ -69,11 +70,11 @@ inline FullSystem full_system(ContactSet& contacts, const Rods& rods) {
   // Unknowns in lanes of their own, node by node.
   std::vector<std::size_t> places;
   for (std::size_t node = 0; node < rods.positions.size(); ++node) {
-    places.push_back(3 * node * lane_count);
+    places.push_back(unknowns * node * lane_count);
   }
   using Spread = Eigen::Map<Eigen::VectorXd, 0, Eigen::InnerStride<lane_count>>;
   for (Eigen::Index c = 0; c < size; ++c) {
-    NodeValues unit(rods.positions.size() * 3);
+    NodeValues unit(rods.positions.size() * unknowns);
     NodeValues column(unit.size());
     unit[static_cast<std::size_t>(c)][0] = 1.0;
     add_coupling(contacts.terms(), places, unit.data(), column.data());
@@ -82,20 +83,36 @@ inline FullSystem full_system(ContactSet& contacts, const Rods& rods) {
   return full;
 }
 
-/// The gradient of an energy by the positions of rods, by central differences [m].
-template <class Energy>
-Eigen::VectorXd gradient_by_differences(Rods rods, const Energy& energy, double difference) {
-  Eigen::VectorXd gradient(3 * static_cast<Eigen::Index>(rods.positions.size()));
-  for (Eigen::Index i = 0; i < gradient.size(); ++i) {
-    double& x = rods.positions[static_cast<std::size_t>(i / 3)][i % 3];
+/// The derivatives of a number or a vector by the unknowns of rods, by central differences [m or
+/// rad]: one column each.
+template <class Function>
+Eigen::MatrixXd derivatives_by_differences(Rods rods, const Function& function, double difference) {
+  const std::size_t unknowns = rods.angles.empty() ? 3 : 4;
+  Eigen::MatrixXd derivatives;
+  for (std::size_t i = 0; i < unknowns * rods.positions.size(); ++i) {
+    const std::size_t node = i / unknowns;
+    const std::size_t part = i % unknowns;
+    double& x =
+        part == 3 ? rods.angles[node] : rods.positions[node][static_cast<Eigen::Index>(part)];
     const double middle = x;
     x = middle + difference;
-    const double after = energy(rods);
+    const Eigen::VectorXd after = function(rods);
     x = middle - difference;
-    gradient[i] = (after - energy(rods)) / (2.0 * difference);
+    const Eigen::VectorXd before = function(rods);
     x = middle;
+    derivatives.conservativeResize(after.size(), static_cast<Eigen::Index>(i + 1));
+    derivatives.rightCols(1) = (after - before) / (2.0 * difference);
   }
-  return gradient;
+  return derivatives;
+}
+
+/// The gradient of an energy by the unknowns of rods, by central differences [m or rad].
+template <class Energy>
+Eigen::VectorXd gradient_by_differences(const Rods& rods, const Energy& energy, double difference) {
+  const auto as_vector = [&energy](const Rods& r) {
+    return Eigen::VectorXd::Constant(1, energy(r));
+  };
+  return derivatives_by_differences(rods, as_vector, difference).transpose();
 }
 
 }  // namespace fiber::test

@@ -74,7 +74,7 @@ std::vector<double> residuals(const Rods& before, const Rods& after,
   const auto contacts = stiff_contacts(environment);
   // The bound is farther than rods have gone.
   ContactSet found = contacts_of(*contacts, before, pressed_radius);
-  found.begin(before, contacts->friction(), {&before.positions, &anchors}, balance_step);
+  found.begin(before, contacts->friction(), {&before, &anchors}, balance_step);
   found.update_distances(after);
   found.update_friction(after, std::vector<std::uint32_t>(after.count(), 0), {true});
   found.find_derivatives(after);

@@ -10,10 +10,14 @@
 namespace fiber {
 
 /// Coulomb friction in contacts, as a potential of one step (Li et al. 2020, Sect. 5): with normal
-/// forces and contact planes as they are when the step begins, and smooth about sticking. With the
-/// largest force f and the slip e that the stick speed brings in a step, the force is
-/// f (2 y/e − y²/e²) for slips y below e, and f above. A slip below e is elastic: it is kept from
-/// step to step, so that what rests by friction does not creep (Cundall and Strack 1979).
+/// forces and contact planes that follow those of the step (Larionov et al. 2023), and smooth about
+/// sticking. With the largest force f and the slip e that the stick speed brings in a step, the
+/// force is f (2 y/e − y²/e²) for slips y below e, and f above. A slip below e is elastic: it is
+/// kept from step to step, so that what rests by friction does not creep (Cundall and Strack 1979).
+///
+/// Without the effect Twist, slips are those of the axes and friction acts on them, as on rods that
+/// cannot turn about themselves: they slide, and never roll. With Twist, slips are those of the
+/// surfaces, by the motion of axes and cross-sections, and friction acts there: rods roll.
 class Friction {
  public:
   /// The smoothed law of Coulomb.

@@ -90,6 +90,12 @@ struct Rods : RodState {
     return 0.5 * (rest_lengths[node - 1] + rest_lengths[node]);
   }
 
+  /// The moment of inertia of an edge's cross-section about the tangent [kg m²]; 0 at each rod's
+  /// last node.
+  double section_inertia(std::uint32_t rod, std::uint32_t edge) const {
+    return sections[rod].inertia_per_length * rest_lengths[edge];
+  }
+
   /// Adds a rod that is at rest and neither stretched nor compressed.
   /// @param points [m] at least two
   /// @param radius [m]

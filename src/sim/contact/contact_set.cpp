@@ -16,10 +16,6 @@ using Eigen::Vector3d;
 
 namespace {
 
-Vector3d point_at(const std::vector<Vector3d>& values, std::uint32_t edge, double parameter) {
-  return (1.0 - parameter) * values[edge] + parameter * values[edge + 1];
-}
-
 // Contacts are numbered: first those with obstacles, then those of pairs, then those with friction.
 // Threads take them in chunks, which do not depend on the number of threads.
 constexpr std::size_t chunk = 64;
@@ -102,13 +98,18 @@ std::vector<ContactSet::FrictionPoint> ContactSet::find_friction(const Rods& rod
     for (std::size_t i = begin; i < end; ++i) {
       for_each_term(rods, i, buffer, [&](const ContactPoints& points, const DistanceTerm& term) {
         if (term.pressure > 0.0) {
-          Vector3d reference = point_at(*origins_.positions, points.edge_a, points.s);
+          Vector3d reference = point_at(origins_.state->positions, points.edge_a, points.s);
           if (points.is_of_rods()) {
-            reference -= point_at(*origins_.positions, points.edge_b, points.t);
+            reference -= point_at(origins_.state->positions, points.edge_b, points.t);
+          }
+          const auto levers = surface_levers(rods, points, term.normal);
+          if (levers) {
+            reference +=
+                lever_motion(*levers, points, origins_.state->positions, origins_.state->angles);
           }
           const double max_force = friction_->coefficient() * term.pressure;
           reference -= origins_.anchors->slip_at(points, term.normal, max_force, stick_length_);
-          by_chunk[index].push_back({points, term.normal, max_force, reference});
+          by_chunk[index].push_back({points, term.normal, max_force, reference, levers});
         }
       });
     }
@@ -188,6 +189,9 @@ Vector3d ContactSet::FrictionPoint::slip(const Rods& rods) const {
   if (points.is_of_rods()) {
     moved -= point_at(rods.positions, points.edge_b, points.t);
   }
+  if (levers) {
+    moved += lever_motion(*levers, points, rods.positions, rods.angles);
+  }
   return moved - normal * normal.dot(moved);
 }
 
@@ -252,7 +256,7 @@ void ContactSet::find_terms(const Rods& rods, std::size_t contact, std::vector<D
     terms.push_back({points, term.slope * term.normal,
                      (term.curvature - term.across) * term.normal * term.normal.transpose() +
                          term.across * Matrix3d::Identity(),
-                     term.turning > 0.0 ? term.turning / (term.slope * term.slope) : 0.0});
+                     term.turning > 0.0 ? term.turning / (term.slope * term.slope) : 0.0, nullptr});
   };
   if (contact < distance_count()) {
     for_each_term(rods, contact, found, add);
@@ -268,8 +272,8 @@ void ContactSet::find_terms(const Rods& rods, std::size_t contact, std::vector<D
     const Vector3d along = slip / length;
     hessian += (law.curvature - law.resistance) * along * along.transpose();
   }
-  terms.push_back(
-      {point.points, point.max_force * law.resistance * slip, point.max_force * hessian, 0.0});
+  terms.push_back({point.points, point.max_force * law.resistance * slip, point.max_force * hessian,
+                   0.0, point.levers ? &*point.levers : nullptr});
 }
 
 void ContactSet::find_derivatives(const Rods& rods) {

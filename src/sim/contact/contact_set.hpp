@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -29,8 +30,8 @@ struct ObstacleEdge {
 
 /// Where slips are measured from in a step.
 struct FrictionOrigins {
-  const std::vector<Eigen::Vector3d>* positions = nullptr;  ///< of nodes, when the step began [m]
-  const FrictionAnchors* anchors = nullptr;                 ///< the slips there were then
+  const RodState* state = nullptr;           ///< of the rods when the step began
+  const FrictionAnchors* anchors = nullptr;  ///< the slips there were then
 };
 
 /// The contacts that some rods may have in a step: their potential, and that of friction in them.
@@ -49,7 +50,7 @@ class ContactSet {
   /// Begins a step where the rods are: contacts that press there have friction, by the forces with
   /// which they press.
   /// @param friction null for none; must outlive the step
-  /// @param origins  of slips: where the nodes were when the anchors were found, and what slip
+  /// @param origins  of slips: where the rods were when the anchors were found, and what slip
   ///                 there was already; must outlive the step
   /// @param step     [s]
   void begin(const Rods& rods, const Friction* friction, const FrictionOrigins& origins,
@@ -98,6 +99,7 @@ class ContactSet {
   /// Finds the derivatives at the current distances.
   void find_derivatives(const Rods& rods);
 
+  /// Valid until friction is updated.
   const ContactTerms& terms() const { return terms_; }
 
   /// Shortens each island's share of a step: no distance may lose more than four fifths of its
@@ -118,8 +120,9 @@ class ContactSet {
   struct FrictionPoint {
     ContactPoints points;
     Eigen::Vector3d normal;
-    double max_force;           // [N]
-    Eigen::Vector3d reference;  // from the point of b to that of a, where its slip is nil [m]
+    double max_force;                     // [N]
+    Eigen::Vector3d reference;            // from the point of b to that of a, where slip is nil [m]
+    std::optional<SurfaceLevers> levers;  // from the axes to where it acts; none: on the axes
 
     Eigen::Vector3d slip(const Rods& rods) const;
   };

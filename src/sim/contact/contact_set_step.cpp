@@ -28,6 +28,26 @@ double squared_approach(const Vector3d* a, const Vector3d* b) {
 }
 
 /// Adds one side of a term to the rod it is on.
+/// @param edge  of the rod
+/// @param lever from the axis to the point
+void add_side(std::uint32_t edge, double parameter, const SurfaceLever& lever,
+              const Vector3d& gradient, const Matrix3d& hessian, RodSystem& system) {
+  const SurfaceLever::Jacobian jacobian = lever.jacobian(parameter);
+  const Eigen::Matrix<double, SurfaceLever::unknowns, 1> by_all = jacobian.transpose() * gradient;
+  system.add_gradient(edge, by_all.head<3>());
+  system.add_angle_gradient(edge, by_all[3]);
+  system.add_gradient(edge + 1, by_all.tail<3>());
+  const Eigen::Matrix<double, SurfaceLever::unknowns, SurfaceLever::unknowns> block =
+      jacobian.transpose() * hessian * jacobian;
+  const std::size_t first = std::size_t{edge} * system.unknowns();
+  for (int c = 0; c < SurfaceLever::unknowns; ++c) {
+    for (int r = c; r < SurfaceLever::unknowns; ++r) {
+      system.add_hessian_entry(first + r, first + c, block(r, c));
+    }
+  }
+}
+
+/// Adds one side of a term whose points are on the axes.
 /// @param node of the rod, where the edge begins
 void add_side(std::uint32_t node, double parameter, const Vector3d& gradient,
               const Matrix3d& hessian, RodSystem& system) {
@@ -90,15 +110,25 @@ void add_derivatives(const ContactTerms& terms, const Rods& rods,
     const ContactPoints& points = term.points;
     if (packs[points.rod_a] == which) {
       const std::uint32_t edge = points.edge_a - rods.first(points.rod_a);
-      add_side(edge, points.s, term.gradient, term.hessian, *systems[points.rod_a]);
+      RodSystem& system = *systems[points.rod_a];
+      if (term.levers == nullptr) {
+        add_side(edge, points.s, term.gradient, term.hessian, system);
+      } else {
+        add_side(edge, points.s, term.levers->front(), term.gradient, term.hessian, system);
+      }
       if (term.turning > 0.0) {
-        systems[points.rod_a]->add_edge(edge, Vector3d::Zero(),
-                                        term.turning * term.gradient * term.gradient.transpose());
+        system.add_edge(edge, Vector3d::Zero(),
+                        term.turning * term.gradient * term.gradient.transpose());
       }
     }
     if (points.is_of_rods() && packs[points.rod_b] == which) {
-      add_side(points.edge_b - rods.first(points.rod_b), points.t, -term.gradient, term.hessian,
-               *systems[points.rod_b]);
+      const std::uint32_t edge = points.edge_b - rods.first(points.rod_b);
+      RodSystem& system = *systems[points.rod_b];
+      if (term.levers == nullptr) {
+        add_side(edge, points.t, -term.gradient, term.hessian, system);
+      } else {
+        add_side(edge, points.t, term.levers->back(), -term.gradient, term.hessian, system);
+      }
     }
   });
 }
@@ -119,13 +149,30 @@ void add_coupling(const ContactTerms& terms, const std::vector<std::size_t>& pla
   const auto combine = [&](std::uint32_t edge, double parameter) -> Vector3d {
     return (1.0 - parameter) * displacement(edge) + parameter * displacement(edge + 1);
   };
+  using Unknowns = Eigen::Matrix<double, SurfaceLever::unknowns, 1>;
+  const auto combine_at = [&](std::uint32_t edge, double parameter,
+                              const SurfaceLever& lever) -> Vector3d {
+    return lever.jacobian(parameter) *
+           Eigen::Map<const Unknowns, 0, Stride>(displacements->lanes.data() + places[edge]);
+  };
+  const auto spread_at = [&](std::uint32_t edge, double parameter, const SurfaceLever& lever,
+                             const Vector3d& v) {
+    Eigen::Map<Unknowns, 0, Stride>(product->lanes.data() + places[edge]) -=
+        lever.jacobian(parameter).transpose() * v;
+  };
   const auto spread = [&](std::uint32_t edge, double parameter, const Vector3d& v) {
     Eigen::Map<Vector3d, 0, Stride>(product->lanes.data() + places[edge]) -= (1.0 - parameter) * v;
     Eigen::Map<Vector3d, 0, Stride>(product->lanes.data() + places[edge + 1]) -= parameter * v;
   };
   for_each_term(terms, [&](const ContactTerm& term) {
     const ContactPoints& points = term.points;
-    if (points.is_of_rods()) {
+    if (points.is_of_rods() && term.levers != nullptr) {
+      const auto& [a, b] = *term.levers;
+      const Vector3d from_a = term.hessian * combine_at(points.edge_a, points.s, a);
+      const Vector3d from_b = term.hessian * combine_at(points.edge_b, points.t, b);
+      spread_at(points.edge_a, points.s, a, from_b);
+      spread_at(points.edge_b, points.t, b, from_a);
+    } else if (points.is_of_rods()) {
       const Vector3d from_a = term.hessian * combine(points.edge_a, points.s);
       const Vector3d from_b = term.hessian * combine(points.edge_b, points.t);
       spread(points.edge_a, points.s, from_b);
@@ -162,8 +209,8 @@ std::vector<Impact> ContactSet::find_impacts(const Rods& rods) const {
       const double approach = -relative_velocity(rods.velocities, points).dot(term.normal);
       const bool has_begun = !was_near_[i] && approach > Impact::min_speed;
       has_any_begun |= has_begun;
-      found.push_back(
-          {points, term.normal, has_begun, has_begun ? restitution_of(i) * approach : 0.0});
+      found.push_back({points, term.normal, surface_levers(rods, points, term.normal), has_begun,
+                       has_begun ? restitution_of(i) * approach : 0.0});
     });
   }
   return has_any_begun ? found : std::vector<Impact>{};

@@ -1,63 +1,140 @@
 #include "src/sim/contact/impact.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace fiber {
 
+using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 namespace {
 
-/// Adds the velocities by an impulse on a point of an edge.
-void push(std::uint32_t edge, double parameter, const Vector3d& impulse,
-          const std::vector<double>& masses, std::vector<Vector3d>& velocities) {
-  velocities[edge] += (1.0 - parameter) / masses[edge] * impulse;
-  velocities[edge + 1] += parameter / masses[edge + 1] * impulse;
+/// One side of an impact: a point of an edge, and where friction acts beside it.
+struct Side {
+  std::uint32_t rod;
+  std::uint32_t edge;
+  double parameter;
+  const SurfaceLever* lever;  // null: on the axis
+};
+
+Side side_a(const Impact& impact) {
+  const ContactPoints& points = impact.points;
+  return {points.rod_a, points.edge_a, points.s, impact.levers ? &impact.levers->front() : nullptr};
 }
 
-/// The change of a point's velocity by a unit impulse on it [1/kg].
-double mobility(std::uint32_t edge, double parameter, const std::vector<double>& masses) {
-  return (1.0 - parameter) * (1.0 - parameter) / masses[edge] +
-         parameter * parameter / masses[edge + 1];
+Side side_b(const Impact& impact) {
+  const ContactPoints& points = impact.points;
+  return {points.rod_b, points.edge_b, points.t, impact.levers ? &impact.levers->back() : nullptr};
+}
+
+/// Adds the velocities by an impulse on a point of an edge.
+void push(const Side& side, const Vector3d& impulse, Rods& rods) {
+  const std::uint32_t edge = side.edge;
+  rods.velocities[edge] += (1.0 - side.parameter) / rods.masses[edge] * impulse;
+  rods.velocities[edge + 1] += side.parameter / rods.masses[edge + 1] * impulse;
+}
+
+/// Adds the velocities and the spin by an impulse where friction acts.
+void push_across(const Side& side, const Vector3d& impulse, Rods& rods) {
+  if (side.lever == nullptr) {
+    push(side, impulse, rods);
+  } else {
+    const Eigen::Matrix<double, SurfaceLever::unknowns, 1> by_all =
+        side.lever->jacobian(side.parameter).transpose() * impulse;
+    rods.velocities[side.edge] += by_all.head<3>() / rods.masses[side.edge];
+    rods.velocities[side.edge + 1] += by_all.tail<3>() / rods.masses[side.edge + 1];
+    rods.spins[side.edge] += by_all[3] / rods.section_inertia(side.rod, side.edge);
+  }
+}
+
+/// The change of the velocity of a point of an edge by a unit impulse on it [1/kg].
+double mobility(const Side& side, const std::vector<double>& masses) {
+  return (1.0 - side.parameter) * (1.0 - side.parameter) / masses[side.edge] +
+         side.parameter * side.parameter / masses[side.edge + 1];
+}
+
+/// The change of the velocity of the point where friction acts by an impulse there [1/kg].
+Matrix3d lever_mobility(const Side& side, const Rods& rods) {
+  const SurfaceLever::Jacobian jacobian = side.lever->jacobian(side.parameter);
+  const auto of_nodes = [&](int column, std::uint32_t node) -> Matrix3d {
+    return jacobian.middleCols<3>(column) * jacobian.middleCols<3>(column).transpose() /
+           rods.masses[node];
+  };
+  return of_nodes(0, side.edge) + of_nodes(4, side.edge + 1) +
+         jacobian.col(3) * jacobian.col(3).transpose() / rods.section_inertia(side.rod, side.edge);
+}
+
+/// How fast an impact's sides move against each other by unit impulses on them, at most [1/kg].
+struct Mobilities {
+  double along;   // the normal
+  double across;  // where friction acts
+};
+
+Mobilities mobilities(const Impact& impact, const Rods& rods) {
+  const bool is_of_rods = impact.points.is_of_rods();
+  const double along = mobility(side_a(impact), rods.masses) +
+                       (is_of_rods ? mobility(side_b(impact), rods.masses) : 0.0);
+  if (!impact.levers) {
+    return {along, along};
+  }
+  Matrix3d both = lever_mobility(side_a(impact), rods);
+  if (is_of_rods) {
+    both += lever_mobility(side_b(impact), rods);
+  }
+  // The larger of the two eigenvalues in the plane of contact.
+  const Matrix3d plane = Matrix3d::Identity() - impact.normal * impact.normal.transpose();
+  const Matrix3d in_plane = plane * both * plane;
+  const double trace = in_plane.trace();
+  const double root = std::sqrt(std::max(0.0, 2.0 * in_plane.squaredNorm() - trace * trace));
+  return {along, 0.5 * (trace + root)};
+}
+
+/// The velocity with which the sides slide on each other where friction acts [m/s].
+Vector3d slip_velocity(const Impact& impact, const Rods& rods) {
+  Vector3d velocity = relative_velocity(rods.velocities, impact.points);
+  if (impact.levers) {
+    velocity += lever_motion(*impact.levers, impact.points, rods.velocities, rods.spins);
+  }
+  return velocity - impact.normal * impact.normal.dot(velocity);
 }
 
 }  // namespace
 
-void resolve(const std::vector<double>& masses, double coefficient, std::vector<Impact>& impacts,
-             std::vector<Vector3d>& velocities) {
+void resolve(Rods& rods, double coefficient, std::vector<Impact>& impacts) {
   constexpr int max_iterations = 200;
   constexpr double max_change = 1e-6;  // of the largest impulse
+  const auto speed_along = [&rods](const Impact& impact) {
+    return relative_velocity(rods.velocities, impact.points).dot(impact.normal);
+  };
+  std::vector<Mobilities> by_impact;
   for (Impact& impact : impacts) {
+    by_impact.push_back(mobilities(impact, rods));
     if (!impact.has_begun) {
-      impact.separation =
-          std::min(0.0, relative_velocity(velocities, impact.points).dot(impact.normal));
+      impact.separation = std::min(0.0, speed_along(impact));
     }
   }
   double change = 1.0;
   double largest = 0.0;
   for (int i = 0; i < max_iterations && change > max_change * largest; ++i) {
     change = 0.0;
-    for (Impact& impact : impacts) {
-      const ContactPoints& points = impact.points;
-      const double inverse_mass =
-          mobility(points.edge_a, points.s, masses) +
-          (points.is_of_rods() ? mobility(points.edge_b, points.t, masses) : 0.0);
-      const auto push_both = [&](const Vector3d& impulse) {
-        push(points.edge_a, points.s, impulse, masses, velocities);
-        if (points.is_of_rods()) {
-          push(points.edge_b, points.t, -impulse, masses, velocities);
+    for (std::size_t index = 0; index < impacts.size(); ++index) {
+      Impact& impact = impacts[index];
+      const Mobilities& sides = by_impact[index];
+      const auto on_both = [&](const auto& push_side, const Vector3d& impulse) {
+        push_side(side_a(impact), impulse, rods);
+        if (impact.points.is_of_rods()) {
+          push_side(side_b(impact), -impulse, rods);
         }
       };
-      const double speed = relative_velocity(velocities, points).dot(impact.normal);
+      const double speed = speed_along(impact);
       const double pressure =
-          std::max(0.0, impact.pressure + (impact.separation - speed) / inverse_mass);
-      push_both((pressure - impact.pressure) * impact.normal);
-      const Vector3d velocity = relative_velocity(velocities, points);
-      const Vector3d slip = velocity - impact.normal * impact.normal.dot(velocity);
-      Vector3d friction = impact.friction - slip / inverse_mass;
+          std::max(0.0, impact.pressure + (impact.separation - speed) / sides.along);
+      on_both(push, (pressure - impact.pressure) * impact.normal);
+      Vector3d friction = impact.friction - slip_velocity(impact, rods) / sides.across;
       const double max_friction = coefficient * pressure;
       friction *= friction.norm() > max_friction ? max_friction / friction.norm() : 1.0;
-      push_both(friction - impact.friction);
+      on_both(push_across, friction - impact.friction);
       change = std::max(
           {change, std::abs(pressure - impact.pressure), (friction - impact.friction).norm()});
       largest = std::max(largest, pressure);

@@ -1,8 +1,9 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
-#include "src/sim/contact/contact_terms.hpp"
+#include "src/sim/contact/surface_lever.hpp"
 
 namespace fiber {
 
@@ -12,7 +13,8 @@ namespace fiber {
 /// The incremental potential of the step brings such sides to where they touch, and takes their
 /// approach: however short the contact is, and however long the step. What they get back is
 /// Newton's law of impact: they part with the restitution times the speed of their approach. The
-/// change u of the nodes' velocities is a second minimum,
+/// change u of the velocities of nodes, and of the spins of sections where they have some, is a
+/// second minimum,
 ///
 ///   min ½ uᵀ M u  with  n·(w + J u) >= e a  in each contact,
 ///
@@ -25,7 +27,8 @@ struct Impact {
   static constexpr double min_speed = 0.05;
 
   ContactPoints points;
-  Eigen::Vector3d normal;  ///< unit vector from b to a
+  Eigen::Vector3d normal;               ///< unit vector from b to a
+  std::optional<SurfaceLevers> levers;  ///< from the axes to where its friction acts; none: there
 
   /// Whether the contact began in this step. One that did not gets nothing back: its sides must
   /// only not approach each other faster.
@@ -36,14 +39,11 @@ struct Impact {
   Eigen::Vector3d friction = Eigen::Vector3d::Zero();  ///< impulse on a across it [N s]
 };
 
-/// Finds the impulses of impacts by projected Gauss-Seidel, and changes velocities by them: contact
-/// by contact the impulse with which it parts as it should, never pulling, and the friction that
-/// stops it from sliding, within its cone. Equal and opposite impulses keep the momentum, however
-/// many iterations there are.
-/// @param masses      of nodes [kg]
+/// Finds the impulses of impacts by projected Gauss-Seidel, and changes velocities and spins by
+/// them: contact by contact the impulse with which it parts as it should, never pulling, and the
+/// friction that stops it from sliding, within its cone. Equal and opposite impulses at one point
+/// keep momentum and angular momentum, however many iterations there are.
 /// @param coefficient of friction
-/// @param velocities  of nodes [m/s]
-void resolve(const std::vector<double>& masses, double coefficient, std::vector<Impact>& impacts,
-             std::vector<Eigen::Vector3d>& velocities);
+void resolve(Rods& rods, double coefficient, std::vector<Impact>& impacts);
 
 }  // namespace fiber

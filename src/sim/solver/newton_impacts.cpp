@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "src/sim/solver/newton.hpp"
 
@@ -11,17 +12,51 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// The largest part, up to 1, of a change of velocities that adds no more kinetic energy than is
-/// allowed.
-double allowed_share(const std::vector<double>& masses, const std::vector<Vector3d>& before,
-                     const std::vector<Vector3d>& after, const std::vector<std::uint32_t>& nodes,
-                     double allowed) {
+/// A node of an impact and the edge after it, with their velocity and spin before it.
+struct StruckNode {
+  std::uint32_t rod;
+  std::uint32_t node;
+  Vector3d velocity = Vector3d::Zero();
+  double spin = 0.0;
+};
+
+/// The nodes of some impacts, each once.
+std::vector<StruckNode> struck_nodes(const Rods& rods, const std::vector<Impact>& impacts) {
+  std::vector<StruckNode> nodes;
+  for (const Impact& impact : impacts) {
+    const ContactPoints& points = impact.points;
+    nodes.insert(nodes.end(), {{points.rod_a, points.edge_a}, {points.rod_a, points.edge_a + 1}});
+    if (points.is_of_rods()) {
+      nodes.insert(nodes.end(), {{points.rod_b, points.edge_b}, {points.rod_b, points.edge_b + 1}});
+    }
+  }
+  std::sort(nodes.begin(), nodes.end(),
+            [](const StruckNode& a, const StruckNode& b) { return a.node < b.node; });
+  const auto is_same = [](const StruckNode& a, const StruckNode& b) { return a.node == b.node; };
+  nodes.erase(std::unique(nodes.begin(), nodes.end(), is_same), nodes.end());
+  for (StruckNode& each : nodes) {
+    each.velocity = rods.velocities[each.node];
+    each.spin = rods.spins.empty() ? 0.0 : rods.spins[each.node];
+  }
+  return nodes;
+}
+
+/// The largest part, up to 1, of a change of velocities and spins that adds no more kinetic energy
+/// than is allowed [J].
+double allowed_share(const std::vector<StruckNode>& nodes, const Rods& after, double allowed) {
   double linear = 0.0;  // the energy by the share y is y linear + y² square
   double square = 0.0;
-  for (const std::uint32_t node : nodes) {
-    const Vector3d change = after[node] - before[node];
-    linear += masses[node] * before[node].dot(change);
-    square += 0.5 * masses[node] * change.squaredNorm();
+  for (const StruckNode& before : nodes) {
+    const double mass = after.masses[before.node];
+    const Vector3d change = after.velocities[before.node] - before.velocity;
+    linear += mass * before.velocity.dot(change);
+    square += 0.5 * mass * change.squaredNorm();
+    if (!after.spins.empty()) {
+      const double inertia = after.section_inertia(before.rod, before.node);
+      const double spin_change = after.spins[before.node] - before.spin;
+      linear += inertia * before.spin * spin_change;
+      square += 0.5 * inertia * spin_change * spin_change;
+    }
   }
   if (linear + square <= allowed) {
     return 1.0;
@@ -39,46 +74,38 @@ std::vector<double> NewtonSolver::kinetic_energies(const Rods& rods) const {
       double& energy = energies[scratch_->islands[rod]];
       energy += 0.5 * rods.masses[i] * rods.velocities[i].squaredNorm();
       if (!rods.spins.empty()) {
-        const double inertia = rods.sections[rod].inertia_per_length * rods.rest_lengths[i];
-        energy += 0.5 * inertia * rods.spins[i] * rods.spins[i];
+        energy += 0.5 * rods.section_inertia(rod, i) * rods.spins[i] * rods.spins[i];
       }
     }
   }
   return energies;
 }
 
-/// Changes the velocities by the impacts of each island, which give back no more energy than the
-/// solve has taken.
+/// Changes velocities and spins by the impacts of each island, which give back no more energy than
+/// the solve has taken.
 void NewtonSolver::resolve_impacts(Rods& rods, const Problem& problem,
                                    const std::vector<Impact>& impacts) {
   const double coefficient = problem.friction != nullptr ? problem.friction->coefficient() : 0.0;
   const std::vector<double> kinetic = kinetic_energies(rods);
   for (std::uint32_t island = 0; island < states_.size(); ++island) {
     std::vector<Impact> own;
-    std::vector<std::uint32_t> nodes;
-    for (const Impact& impact : impacts) {
-      if (scratch_->islands[impact.points.rod_a] == island) {
-        own.push_back(impact);
-        nodes.insert(nodes.end(), {impact.points.edge_a, impact.points.edge_a + 1});
-        if (impact.points.is_of_rods()) {
-          nodes.insert(nodes.end(), {impact.points.edge_b, impact.points.edge_b + 1});
-        }
-      }
-    }
+    std::copy_if(
+        impacts.begin(), impacts.end(), std::back_inserter(own),
+        [&](const Impact& impact) { return scratch_->islands[impact.points.rod_a] == island; });
     if (std::none_of(own.begin(), own.end(), [](const auto& impact) { return impact.has_begun; })) {
       continue;
     }
-    std::sort(nodes.begin(), nodes.end());
-    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-    std::vector<Vector3d>& before = scratch_->displacements;
-    for (const std::uint32_t node : nodes) {
-      before[node] = rods.velocities[node];
-    }
-    resolve(rods.masses, coefficient, own, rods.velocities);
-    const double share = allowed_share(rods.masses, before, rods.velocities, nodes,
-                                       std::max(0.0, max_kinetic_[island] - kinetic[island]));
-    for (const std::uint32_t node : nodes) {
-      rods.velocities[node] = before[node] + share * (rods.velocities[node] - before[node]);
+    const std::vector<StruckNode> before = struck_nodes(rods, own);
+    resolve(rods, coefficient, own);
+    const double share =
+        allowed_share(before, rods, std::max(0.0, max_kinetic_[island] - kinetic[island]));
+    for (const StruckNode& each : before) {
+      Vector3d& velocity = rods.velocities[each.node];
+      velocity = each.velocity + share * (velocity - each.velocity);
+      if (!rods.spins.empty()) {
+        double& spin = rods.spins[each.node];
+        spin = each.spin + share * (spin - each.spin);
+      }
     }
     for (Impact& impact : own) {
       impact.pressure *= share;

@@ -49,7 +49,7 @@ void StageSolver::solve(Rods& rods, const Effects& effects, const TimeStep& stag
     reference_ = rods.state();
   }
   const RodState* const begin = stage.earlier.front().state;
-  origins_ = {begin != nullptr ? &begin->positions : &start_.positions, &anchors_};
+  origins_ = {begin != nullptr ? begin : &start_, &anchors_};
   arena_.execute([&] {
     for (const auto& effect : effects) {
       effect->begin_step(rods, stage);

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "fiber_proximity/sim/forces.hpp"
+#include "fiber_proximity/sim/rods.hpp"
+
+namespace fiber {
+
+/// Points of two edges, or of an edge and an obstacle.
+struct ContactPoints {
+  static constexpr std::uint32_t no_edge = RodForces::ContactForce::obstacle;
+
+  std::uint32_t rod_a;
+  std::uint32_t edge_a;  ///< as Rods counts edges
+  double s;
+  std::uint32_t rod_b;   ///< the object's index, for an obstacle
+  std::uint32_t edge_b;  ///< no_edge for an obstacle
+  double t;
+
+  bool is_of_rods() const { return edge_b != no_edge; }
+};
+
+/// The value at a point of an edge of what is linear along it.
+/// @param values of nodes
+inline Eigen::Vector3d point_at(const std::vector<Eigen::Vector3d>& values, std::uint32_t edge,
+                                double parameter) {
+  return (1.0 - parameter) * values[edge] + parameter * values[edge + 1];
+}
+
+/// The velocity of a's point against b's, or against an obstacle [m/s].
+/// @param velocities of nodes [m/s]
+inline Eigen::Vector3d relative_velocity(const std::vector<Eigen::Vector3d>& velocities,
+                                         const ContactPoints& points) {
+  Eigen::Vector3d found = point_at(velocities, points.edge_a, points.s);
+  if (points.is_of_rods()) {
+    found -= point_at(velocities, points.edge_b, points.t);
+  }
+  return found;
+}
+
+}  // namespace fiber
