@@ -90,6 +90,7 @@ std::optional<double> NewtonSolver::solve(Rods& rods, const Problem& problem) {
       return std::nullopt;
     }
     line_search(rods, problem, LineSearch::max_halvings);
+    correct_short_steps(rods, problem);
     for (std::size_t i = 0; i < states_.size(); ++i) {
       const LineSearch::Island& accepted = line_search_.island(i);
       states_[i].scale = next_scale(states_[i].scale, accepted);
@@ -169,6 +170,7 @@ bool NewtonSolver::predict(Rods& rods, const Problem& problem) {
   }
   for (IslandState& state : states_) {
     state.is_active = true;
+    state.corrections = 0;
     state.predicted_decrease = 0.0;
   }
   if (!bound_step(rods, problem)) {
