@@ -2,6 +2,7 @@
 
 add_library(fiber_proximity_sim SHARED
   src/sim/contact/contact_set.cpp
+  src/sim/contact/friction_anchors.cpp
   src/sim/contact/impact.cpp
   src/sim/contact/contact_set_step.cpp
   src/sim/contact/edge_contact.cpp
