@@ -48,6 +48,14 @@ void NewtonSolver::assign(const Rods& rods, const std::vector<std::vector<std::u
     size += packs_[pack].step_size();
   }
   step_.assign(size, SimdBatch{});
+  found_positions_.resize(packs.size());
+  for (std::size_t pack = 0; pack < packs.size(); ++pack) {
+    found_positions_[pack].reserve(packs_[pack].step_size());
+  }
+  is_short_.reserve(islands);
+  is_lower_.reserve(islands);
+  states_before_.reserve(islands);
+  found_.reserve(islands);
   states_.assign(islands, IslandState{});
   reports_.assign(islands, IslandReport{});
 }

@@ -128,6 +128,13 @@ class NewtonSolver {
   std::vector<double> max_kinetic_;   // energy after impacts, by island [J]
   std::vector<double> trial_shares_;  // of the step, by island: bounds, then those accepted
   std::vector<SimdBatch> step_;
+
+  // Buffers of correct_short_steps(), so that a step allocates nothing: by island, and by pack.
+  std::vector<bool> is_short_;
+  std::vector<bool> is_lower_;
+  std::vector<IslandState> states_before_;
+  std::vector<EnergySum> found_;
+  std::vector<std::vector<SimdBatch>> found_positions_;
   LineSearch line_search_;
   Coupling coupling_;
   StepBound bound_;

@@ -14,33 +14,32 @@ void NewtonSolver::correct_short_steps(Rods& rods, const Problem& problem) {
   if (problem.contacts != nullptr) {
     return;  // the bound on a step is that of a single one
   }
-  std::vector<bool> is_short(states_.size());
+  is_short_.assign(states_.size(), false);
   bool is_any_short = false;
   for (std::size_t i = 0; i < states_.size(); ++i) {
-    is_short[i] = states_[i].is_active && line_search_.island(i).share < 1.0 &&
-                  reports_[i].iterations + 1 + corrections <= problem.options.max_iterations;
-    is_any_short |= is_short[i];
+    is_short_[i] = states_[i].is_active && line_search_.island(i).share < 1.0 &&
+                   reports_[i].iterations + 1 + corrections <= problem.options.max_iterations;
+    is_any_short |= is_short_[i];
   }
   if (!is_any_short) {
     return;
   }
-  std::vector<IslandState> states = states_;
-  const std::vector<EnergySum> found = energies_;
-  std::vector<std::vector<SimdBatch>> positions;
+  states_before_ = states_;
+  found_ = energies_;
   for (std::size_t pack = 0; pack < packs_.size(); ++pack) {
-    positions.push_back(packs_[pack].rods().positions);
+    found_positions_[pack] = packs_[pack].rods().positions;
     SimdBatch shares;
     for (std::size_t lane = 0; lane < packs_[pack].rods().used; ++lane) {
       const std::uint32_t island = islands_[pack][lane];
-      shares[lane] = is_short[island] ? 1.0 : line_search_.island(island).share;
+      shares[lane] = is_short_[island] ? 1.0 : line_search_.island(island).share;
     }
     packs_[pack].move(part(pack), shares);
   }
   for (std::size_t i = 0; i < states_.size(); ++i) {
-    states_[i].is_active = is_short[i];
+    states_[i].is_active = is_short_[i];
     states_[i].scale = 1.0;
   }
-  std::vector<bool> is_lower(states_.size());
+  is_lower_.assign(states_.size(), false);
   for (int correction = 0; correction < corrections; ++correction) {
     assemble(rods, problem);
     find_newton_step(problem);
@@ -51,17 +50,17 @@ void NewtonSolver::correct_short_steps(Rods& rods, const Problem& problem) {
     }
     evaluate_energies(rods, problem);
     for (std::size_t i = 0; i < states_.size(); ++i) {
-      states[i].corrections += states_[i].is_active ? 1 : 0;
-      if (states_[i].is_active && energies_[i].energy < found[i].energy - found[i].roundoff()) {
-        is_lower[i] = true;
+      states_before_[i].corrections += states_[i].is_active ? 1 : 0;
+      if (states_[i].is_active && energies_[i].energy < found_[i].energy - found_[i].roundoff()) {
+        is_lower_[i] = true;
         states_[i].is_active = false;
       }
     }
   }
-  states_ = states;
+  states_ = states_before_;
   for_each_rod([&](std::size_t pack, std::size_t lane, std::uint32_t island) {
-    if (!is_lower[island]) {
-      packs_[pack].restore(positions[pack], lane);
+    if (!is_lower_[island]) {
+      packs_[pack].restore(found_positions_[pack], lane);
     }
   });
   for (PackStep& pack : packs_) {
@@ -69,7 +68,7 @@ void NewtonSolver::correct_short_steps(Rods& rods, const Problem& problem) {
   }
   evaluate_energies(rods, problem);
   for (std::size_t i = 0; i < states_.size(); ++i) {
-    if (is_lower[i]) {
+    if (is_lower_[i]) {
       line_search_.accept_whole_step(i);
     }
   }
