@@ -23,6 +23,7 @@ add_library(fiber_proximity_sim SHARED
   src/sim/solver/newton.cpp
   src/sim/solver/pack_kernels.cpp
   src/sim/solver/newton_convergence.cpp
+  src/sim/solver/newton_correction.cpp
   src/sim/solver/newton_impacts.cpp
   src/sim/solver/stage_adaption.cpp
   src/sim/solver/stage_solver.cpp

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "fiber_proximity/sim/effects.hpp"
@@ -12,6 +13,7 @@
 #include "test/sim/energy_bounds.hpp"
 #include "test/sim/random_rods.hpp"
 #include "validation/sim/contact_scenes.hpp"
+#include "validation/sim/rod_scene.hpp"
 
 namespace fiber::test {
 namespace {
@@ -145,6 +147,48 @@ TEST(Residual, IsWhatIsLeftOfEachNodesEquation) {
     expect_enough(still, 500);
     expect_enough(contacts, std::size_t{20});
     EXPECT_LT(stepper.rods().positions[rods.first(3)].z(), 0.05) << "they have fallen";
+  }
+}
+
+/// A thin stiff rod that hangs from one end, let go level, in steps of 1/240 s.
+struct ThinRodRun {
+  int unbalanced = 0;
+  std::uint32_t median_iterations = 0;
+};
+
+ThinRodRun swing_thin_rod(const char* preset, double radius, Integrator integrator) {
+  Rods rods;
+  rods.add(straight(Eigen::Vector3d::Zero(), {0.1, 0, 0}, 50), radius,
+           solid_round_section(material_preset(preset), radius));
+  auto pinned = hold(rods, {pin(0, Eigen::Vector3d::Zero())});
+  StepperOptions options;
+  options.integrator = integrator;
+  options.threads = 1;
+  Stepper stepper(rods,
+                  effects(std::make_unique<Gravity>(Eigen::Vector3d(0, 0, -9.81)),
+                          std::make_unique<Stretch>(), std::make_unique<Bend>(), std::move(pinned)),
+                  options);
+  ThinRodRun run;
+  std::vector<std::uint32_t> iterations;
+  for (int i = 0; i < 240; ++i) {
+    stepper.step(1.0 / 240.0);
+    run.unbalanced += stepper.report().unbalanced > 0 ? 1 : 0;
+    iterations.push_back(stepper.report().iterations);
+  }
+  std::nth_element(iterations.begin(), iterations.begin() + 120, iterations.end());
+  run.median_iterations = iterations[120];
+  return run;
+}
+
+TEST(ThinRods, Balance) {
+  for (const char* const preset : {"power_cable", "rope", "silicone_tube", "hair"}) {
+    for (const double radius : {1e-5, 3e-5, 1e-4}) {
+      for (const Integrator integrator : {Integrator::IMPLICIT_EULER, Integrator::BDF2}) {
+        const ThinRodRun run = swing_thin_rod(preset, radius, integrator);
+        EXPECT_LE(run.unbalanced, 2) << preset << ", " << radius;
+        EXPECT_LE(run.median_iterations, 20U) << preset << ", " << radius;
+      }
+    }
   }
 }
 

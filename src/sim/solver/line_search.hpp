@@ -56,6 +56,13 @@ class LineSearch {
   Island& island(std::size_t index) { return islands_[index]; }
   const Island& island(std::size_t index) const { return islands_[index]; }
 
+  /// Tells that something else than the search has found where an island goes.
+  void accept_whole_step(std::size_t index) {
+    islands_[index].share = 1.0;
+    islands_[index].expected_share = 1.0;
+    islands_[index].has_failed = false;
+  }
+
   /// Searches. The trial step that was evaluated last is the one that each island accepts.
   /// @param evaluate returns the energies, by island, where the islands' shares lead
   template <class Evaluate>

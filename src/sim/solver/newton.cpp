@@ -48,6 +48,14 @@ void NewtonSolver::assign(const Rods& rods, const std::vector<std::vector<std::u
     size += packs_[pack].step_size();
   }
   step_.assign(size, SimdBatch{});
+  found_positions_.resize(packs.size());
+  for (std::size_t pack = 0; pack < packs.size(); ++pack) {
+    found_positions_[pack].reserve(packs_[pack].step_size());
+  }
+  is_short_.reserve(islands);
+  is_lower_.reserve(islands);
+  states_before_.reserve(islands);
+  found_.reserve(islands);
   states_.assign(islands, IslandState{});
   reports_.assign(islands, IslandReport{});
 }
@@ -90,6 +98,7 @@ std::optional<double> NewtonSolver::solve(Rods& rods, const Problem& problem) {
       return std::nullopt;
     }
     line_search(rods, problem, LineSearch::max_halvings);
+    correct_short_steps(rods, problem);
     for (std::size_t i = 0; i < states_.size(); ++i) {
       const LineSearch::Island& accepted = line_search_.island(i);
       states_[i].scale = next_scale(states_[i].scale, accepted);
@@ -169,6 +178,7 @@ bool NewtonSolver::predict(Rods& rods, const Problem& problem) {
   }
   for (IslandState& state : states_) {
     state.is_active = true;
+    state.corrections = 0;
     state.predicted_decrease = 0.0;
   }
   if (!bound_step(rods, problem)) {

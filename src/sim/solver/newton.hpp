@@ -78,6 +78,7 @@ class NewtonSolver {
   struct IslandState {
     double predicted_decrease = 0.0;   ///< minus the directional derivative of a whole step [J]
     double scale = 1.0;                ///< factor for the next step, if the last one was too short
+    std::uint32_t corrections = 0;     ///< iterations of correct_short_steps()
     bool is_active = true;             ///< iterates
     bool has_friction_of_now = false;  ///< by the normal forces where its rods are
     bool is_converged = false;
@@ -111,6 +112,7 @@ class NewtonSolver {
   bool bound_step(const Rods& rods, const Problem& problem);
   void evaluate_trial_step(Rods& rods, const Problem& problem);
   void line_search(Rods& rods, const Problem& problem, int halvings);
+  void correct_short_steps(Rods& rods, const Problem& problem);
 
   std::vector<PackStep> packs_;
   std::vector<std::uint32_t> members_;  // rods
@@ -126,6 +128,13 @@ class NewtonSolver {
   std::vector<double> max_kinetic_;   // energy after impacts, by island [J]
   std::vector<double> trial_shares_;  // of the step, by island: bounds, then those accepted
   std::vector<SimdBatch> step_;
+
+  // Buffers of correct_short_steps(), so that a step allocates nothing: by island, and by pack.
+  std::vector<bool> is_short_;
+  std::vector<bool> is_lower_;
+  std::vector<IslandState> states_before_;
+  std::vector<EnergySum> found_;
+  std::vector<std::vector<SimdBatch>> found_positions_;
   LineSearch line_search_;
   Coupling coupling_;
   StepBound bound_;

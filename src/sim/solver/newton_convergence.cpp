@@ -52,8 +52,9 @@ void NewtonSolver::check_convergence(Rods& rods, const Problem& problem, std::ui
   }
   for (std::size_t i = 0; i < states_.size(); ++i) {
     if (states_[i].is_active) {
-      reports_[i].iterations = iteration;
-      states_[i].is_active = !states_[i].is_converged;
+      reports_[i].iterations = iteration + states_[i].corrections;
+      states_[i].is_active =
+          !states_[i].is_converged && reports_[i].iterations < problem.options.max_iterations;
     }
   }
 }

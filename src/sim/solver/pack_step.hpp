@@ -183,6 +183,16 @@ class PackStep {
     measure_edges(pack_);
   }
 
+  /// Takes a rod back to where it was; measure() is to follow.
+  void restore(const std::vector<SimdBatch>& positions, std::size_t lane) {
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+      pack_.positions[i][lane] = positions[i][lane];
+    }
+  }
+
+  /// Measures the edges where the rods are.
+  void measure() { measure_edges(pack_); }
+
   /// Kinetic and potential energy of the incremental potential where the rods are now [J].
   void evaluate_energies(const Effects& effects) {
     const SimdBatch kinetic = weighted_squares({system_.size(), pack_.used}, inertias_.data(),
