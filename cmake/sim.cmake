@@ -2,6 +2,7 @@
 
 add_library(fiber_proximity_sim SHARED
   src/sim/contact/contact_set.cpp
+  src/sim/contact/friction_anchors.cpp
   src/sim/contact/impact.cpp
   src/sim/contact/contact_set_step.cpp
   src/sim/contact/edge_contact.cpp
@@ -39,7 +40,9 @@ add_library(sim_scene OBJECT
   src/sim/scene/holds.cpp
   src/sim/scene/keys.cpp
   src/sim/scene/reach.cpp
+  src/sim/scene/real_time.cpp
   src/sim/scene/report.cpp
+  src/sim/scene/resolution.cpp
   src/sim/scene/scene.cpp
   src/sim/scene/shapes.cpp
 )

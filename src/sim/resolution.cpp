@@ -9,6 +9,9 @@
 namespace fiber {
 namespace {
 
+/// The part of the accuracy that segments may use up, and that steps may.
+constexpr double half = 0.5;
+
 void require_accuracy(double accuracy) {
   require(accuracy > 0.0 && accuracy <= 0.5, "accuracy", accuracy, "", "above 0 and at most 0.5");
 }
@@ -24,8 +27,9 @@ std::uint32_t whole(double number) {
 std::uint32_t segments_for(double accuracy, double turning) {
   require_accuracy(accuracy);
   require_not_negative("turning", turning, " rad");
-  return whole(std::max(std::sqrt(ResolutionTable::bending / accuracy),
-                        turning * std::sqrt(ResolutionTable::turning / accuracy)));
+  return whole(std::max(
+      std::sqrt(std::max(ResolutionTable::bending, ResolutionTable::swing / half) / accuracy),
+      turning * std::sqrt(ResolutionTable::turning / accuracy)));
 }
 
 std::uint32_t substeps_for(double accuracy, Integrator integrator, double frame, double period) {
@@ -33,9 +37,13 @@ std::uint32_t substeps_for(double accuracy, Integrator integrator, double frame,
   require_positive("frame", frame, " s");
   require(period > 0.0, "period", period, " s", "positive");
   const double step = integrator == Integrator::IMPLICIT_EULER
-                          ? accuracy / ResolutionTable::euler * period
-                          : std::sqrt(accuracy / ResolutionTable::bdf2) * period;
+                          ? half * accuracy / ResolutionTable::euler * period
+                          : std::sqrt(half * accuracy / ResolutionTable::bdf2) * period;
   return whole(frame / step);
+}
+
+double max_contact_step(double radius, double gravity) {
+  return std::sqrt(ResolutionTable::contact_travel * radius / gravity);
 }
 
 double swing_period(const RodSection& section, double length, double gravity) {
@@ -45,12 +53,6 @@ double swing_period(const RodSection& section, double length, double gravity) {
   const double by_stiffness = cantilever * cantilever * section.bending_stiffness /
                               (section.mass_per_length * std::pow(length, 4));
   return 2.0 * M_PI / std::sqrt(by_weight + by_stiffness);
-}
-
-double frame_time(std::uint64_t nodes, std::uint32_t substeps, std::uint32_t iterations,
-                  bool has_contacts) {
-  return static_cast<double>(nodes) * substeps * iterations *
-         (has_contacts ? ResolutionTable::contact_node_time : ResolutionTable::node_time);
 }
 
 }  // namespace fiber

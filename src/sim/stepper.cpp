@@ -108,18 +108,19 @@ void Stepper::step(double length) {
   }
   require_finite(rods_);
   report_ = StepReport{};
-  const double kinetic = kinetic_energy(rods_);
+  const double before = kinetic_energy(rods_) + solver_->anchor_energy();
   if (options_.integrator == Integrator::IMPLICIT_EULER) {
     solver_->solve(rods_, effects_, {time_, length}, nullptr);
     solver_->add_to(report_);
   } else {
     step_by_bdf2(length);
   }
+  solver_->keep_anchors(rods_);
   for (const auto& effect : effects_) {
     effect->end_step(rods_, {time_, length});
   }
   require_finite(rods_);
-  report_.energy_gain += kinetic_energy(rods_) - kinetic;
+  report_.energy_gain += kinetic_energy(rods_) + solver_->anchor_energy() - before;
   time_ += length;
 }
 
@@ -198,7 +199,8 @@ RodForces Stepper::forces() const {
 }
 
 double Stepper::energy() {
-  return kinetic_energy(rods_) + (time_ > 0.0 ? solver_->stored_energy(rods_, effects_) : 0.0);
+  return kinetic_energy(rods_) + solver_->anchor_energy() +
+         (time_ > 0.0 ? solver_->stored_energy(rods_, effects_) : 0.0);
 }
 
 }  // namespace fiber

@@ -186,6 +186,9 @@ void advance(SimScene& scene) {
 ExitCode run(const Request& request) {
   SimScene scene = make_scene(request);  // what cannot be made leaves no file behind
   const std::int64_t frames = frames_in(request.seconds, scene.time_step);
+  if (!scene.real_time_note.empty()) {
+    std::cerr << "note: " << scene.real_time_note << '\n';
+  }
   for (const std::string& omission : omissions(scene)) {
     std::cerr << "warning: " << omission << '\n';
   }

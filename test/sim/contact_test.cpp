@@ -202,6 +202,8 @@ Rods crossed_rods(Random& random, int count) {
   return rods;
 }
 
+const FrictionAnchors no_anchors;
+
 /// Slips of a micrometre and of millimetres; some stick, some slide.
 TEST(FrictionContacts, TheGradientIsThatOfTheEnergy) {
   SCOPED_TRACE(seed_message());
@@ -211,7 +213,7 @@ TEST(FrictionContacts, TheGradientIsThatOfTheEnergy) {
     const auto table = environment_of(HalfSpaceShape{Vector3d::UnitZ(), -rod_radius});
     const auto contacts = contacts_with(round % 2 == 0 ? nullptr : table, 0.4);
     ContactSet found = contacts_of(*contacts, start);
-    found.begin(start, contacts->friction(), start.positions, step_length);
+    found.begin(start, contacts->friction(), {&start.positions, &no_anchors}, step_length);
     Rods rods = start;
     const double slip = std::pow(10.0, random.uniform(-6.0, -4.0));
     for (Vector3d& position : rods.positions) {
@@ -242,7 +244,7 @@ TEST(FrictionContacts, ARodThatSlidesAcrossAnotherHasItsCoefficient) {
       start.add(straight(shift - y, shift + y, 20), rod_radius, rubber(rod_radius));
       const auto contacts = contacts_with(nullptr, 0.4);
       ContactSet found = contacts_of(*contacts, start);
-      found.begin(start, contacts->friction(), start.positions, step_length);
+      found.begin(start, contacts->friction(), {&start.positions, &no_anchors}, step_length);
       Rods rods = start;
       for (std::uint32_t i = rods.first(1); i < rods.end(1); ++i) {
         rods.positions[i].y() += 1e-4;  // along itself: what presses stays as it is

@@ -132,8 +132,61 @@ TEST(Resting, APileStaysAtRestForTenThousandSteps) {
       highest = std::max(highest, kinetic_energy(stepper.rods()));
     }
   }
-  // Friction lets creep what sticks, by less than a millimetre a second: about 3e-8 J of all.
   EXPECT_LT(highest, 1e-6);
+}
+
+/// The farthest that a node of some rods goes in a time, after one in which they settle [m].
+double farthest_in(Stepper& stepper, double settling, double time, double step) {
+  while (stepper.time() < settling) {
+    stepper.step(step);
+  }
+  const std::vector<Vector3d> settled = stepper.rods().positions;
+  double farthest = 0.0;
+  while (stepper.time() < settling + time) {
+    stepper.step(step);
+    for (std::size_t i = 0; i < settled.size(); ++i) {
+      farthest = std::max(farthest, (stepper.rods().positions[i] - settled[i]).norm());
+    }
+  }
+  return farthest;
+}
+
+/// A rod across a slope and one along it, and three that are stacked: all loads of friction, in
+/// contacts with obstacles and of rods.
+TEST(Resting, WhatFrictionHoldsDoesNotCreep) {
+  for (const Integrator integrator : {Integrator::IMPLICIT_EULER, Integrator::BDF2}) {
+    for (const double step : {1.0 / 60.0, 1.0 / 240.0}) {
+      StepperOptions options;
+      options.integrator = integrator;
+      const auto simulate = [&](const Rods& rods, const Vector3d& gravity, double coefficient) {
+        Effects effects = elastic(0.0);
+        effects.push_back(std::make_unique<Gravity>(gravity));
+        Stepper stepper(rods, std::move(effects), options,
+                        contacts_with(environment_of(HalfSpaceShape{}), coefficient));
+        return farthest_in(stepper, 2.0, 60.0, step);
+      };
+      constexpr double above = 1.05 * resting_radius;
+      const Vector3d x(0.1, 0, 0);
+      const Vector3d y(0, 0.1, 0);
+      const Vector3d z(0, 0, above);
+      Rods apart;
+      apart.add(straight(z - x, z + x, 4), resting_radius, rubber(resting_radius));
+      apart.add(straight(5.0 * x + z - y, 5.0 * x + z + y, 4), resting_radius,
+                rubber(resting_radius));
+      const double slope = 10.0 * M_PI / 180.0;
+      const Vector3d down(0.0, -std::sin(slope), -std::cos(slope));
+      EXPECT_LT(simulate(apart, standard_gravity * down, 0.3), 1e-7) << "the slope";
+      EXPECT_GT(simulate(apart, standard_gravity * down, 0.15), 1.0) << "too steep to rest";
+      Rods stack;
+      for (const double side : {-1.0, 1.0}) {
+        const Vector3d middle = z + Vector3d(0.0, 1.02 * side * resting_radius, 0.0);
+        stack.add(straight(middle - x, middle + x, 4), resting_radius, rubber(resting_radius));
+      }
+      const Vector3d upper = z + Vector3d(0.0, 0.0, 1.83 * resting_radius);
+      stack.add(straight(upper - x, upper + x, 4), resting_radius, rubber(resting_radius));
+      EXPECT_LT(simulate(stack, Vector3d(0, 0, -standard_gravity), 0.5), 1e-7) << "the stack";
+    }
+  }
 }
 
 TEST(FreeFlight, IsTheSameWithContactEffects) {

@@ -129,6 +129,19 @@ TEST_F(Simulate, ASceneThatAsksForFewIterationsHearsHowFarFromBalanceItWas) {
   }
 }
 
+TEST_F(Simulate, ASceneInRealTimeHearsWhatIsChosen) {
+  std::string scene = std::string("real_time: true\n") + ropes;
+  for (std::size_t at; (at = scene.find("segments:")) != std::string::npos;) {
+    const std::size_t end = scene.find_first_of(",\n", at);
+    scene.erase(at, end - at + 1);
+  }
+  const ProcessResult result =
+      simulate(write("scene.yaml", scene) + " --seconds 0.01 --out " + path("out.csv"));
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.err.find("real_time: the scene "), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find(" of the time there is on one core, with "), std::string::npos);
+}
+
 TEST_F(Simulate, FramesAreAsManyAsTheSecondsTake) {
   const auto count = [this](const std::string& time_step, const std::string& seconds) {
     const std::string scene =

@@ -11,14 +11,16 @@ namespace fiber {
 
 /// Coulomb friction in contacts, as a potential of one step (Li et al. 2020, Sect. 5): with normal
 /// forces and contact planes as they are when the step begins, and smooth about sticking. With the
-/// largest force f and the slip y that the stick speed brings in a step, the force is
-/// f (2 y/e − y²/e²) for slips y below e, and f above.
+/// largest force f and the slip e that the stick speed brings in a step, the force is
+/// f (2 y/e − y²/e²) for slips y below e, and f above. A slip below e is elastic: it is kept from
+/// step to step, so that what rests by friction does not creep (Cundall and Strack 1979).
 class Friction {
  public:
   /// The smoothed law of Coulomb.
   struct Options {
     double coefficient = 0.3;    ///< of friction; >= 0
-    double stick_speed = 0.001;  ///< [m/s] what sticks creeps more slowly; > 0
+    double stick_speed = 0.001;  ///< [m/s] over a step it is the length by which what sticks gives
+                                 ///< way before it slides; > 0
   };
 
   /// @throws std::invalid_argument naming the value that is out of its range

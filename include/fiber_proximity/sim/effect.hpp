@@ -192,8 +192,9 @@ struct TimeStep {
   double start;
   double length;
 
-  /// Those without a state are none. With none at all it is a step of implicit Euler: rates are
-  /// measured from the state in which Effect::begin_step() finds the rods.
+  /// Those without a state are none; the first one is that in which the whole step began. With none
+  /// at all it is a step of implicit Euler: rates are measured from the state in which
+  /// Effect::begin_step() finds the rods.
   std::array<WeightedState, 2> earlier{};
 
   double end() const { return start + length; }

@@ -7,9 +7,8 @@
 
 namespace fiber {
 
-/// The errors and costs of segments and steps. `sim_validation_test --gtest_filter=Resolution.*`
-/// measures the errors and compares them with these numbers; the times are about those of the
-/// package's scenes (docs/simulation.md).
+/// The errors of segments and steps. `sim_validation_test --gtest_filter=Resolution.*` measures
+/// them and compares them with these numbers.
 struct ResolutionTable {
   /// A cantilever's tip under loads that bend it by up to 80°, in parts of how far it sinks: this
   /// / segments².
@@ -19,38 +18,43 @@ struct ResolutionTable {
   /// segments)².
   static constexpr double turning = 1.0 / 24.0;
 
-  /// Implicit Euler takes of a swing's height in each period: this · step / period. It is 2 π².
-  static constexpr double euler = 19.7392088;
+  /// The place of the tip of a cable that is let go at 45° from a pin, straight and at rest, in
+  /// parts of its length, for 0.6 of the period T of its slowest swing (1 s for a metre that hangs
+  /// by its weight). Of n segments it is off by at most swing / n², in steps of implicit Euler by
+  /// euler · step / T, in steps of BDF2 by bdf2 · (step / T)².
+  static constexpr double swing = 4.5;
+  static constexpr double euler = 22.0;
+  static constexpr double bdf2 = 900.0;
 
-  /// BDF2 adds to a period: this (step / period)². It is (2 π)² / 3.
-  static constexpr double bdf2 = 13.1594725;
-
-  /// [s] for each node and Newton iteration of a step, on one core: without contacts, and with.
-  static constexpr double node_time = 1.0e-6;
-  static constexpr double contact_node_time = 4.0e-6;
+  /// In a step, gravity brings what touches at most this part of its radius further: half of the
+  /// width of a contact's barrier between two such fibres.
+  static constexpr double contact_travel = 0.1;
 };
 
-/// Fewest segments of a fibre so that its shape is as accurate as that.
+/// Fewest segments of a fibre so that they leave its tip within half of the accuracy in a swing
+/// (ResolutionTable), and its shape at rest within the accuracy.
 /// @param accuracy relative, in (0, 0.5]
 /// @param turning  of the fibre in all as it is at rest [rad], >= 0
 /// @throws std::invalid_argument naming the value for one that is not allowed
 std::uint32_t segments_for(double accuracy, double turning);
 
-/// Fewest steps in a frame so that a swing of this period loses no more of its height in a period
-/// (implicit Euler), or takes no longer (BDF2).
+/// Fewest steps in a frame so that they leave the tip of a fibre with this period within half of
+/// the accuracy in a swing (ResolutionTable).
 /// @param accuracy relative, in (0, 0.5]
 /// @param frame, period [s], > 0
 /// @throws std::invalid_argument naming the value for one that is not allowed
 std::uint32_t substeps_for(double accuracy, Integrator integrator, double frame, double period);
+
+/// The longest step for fibres in contact: gravity brings what rests no further in it than
+/// ResolutionTable::contact_travel [s]; infinite without gravity.
+/// @param radius  [m], > 0
+/// @param gravity [m/s²], >= 0
+double max_contact_step(double radius, double gravity);
 
 /// Period of the slowest swing of a fibre that hangs from one end: of a chain by its weight, and of
 /// a cantilever by its stiffness, both at once (Dunkerley) [s]; infinite if neither is there.
 /// @param length  [m], > 0
 /// @param gravity [m/s²], >= 0
 double swing_period(const RodSection& section, double length, double gravity);
-
-/// Estimate of what one core takes for a frame [s].
-double frame_time(std::uint64_t nodes, std::uint32_t substeps, std::uint32_t iterations,
-                  bool has_contacts);
 
 }  // namespace fiber

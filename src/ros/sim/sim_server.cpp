@@ -44,7 +44,7 @@ void log_scene(const SimOptions& options, const fiber::SimDescription& descripti
                               << section.twisting_stiffness << " N m^2, " << section.mass_per_length
                               << " kg/m");
   }
-  if (scene.accuracy) {
+  if (scene.accuracy && scene.real_time_note.empty() && scene.real_time_warning.empty()) {
     ROS_INFO_STREAM(
         "segments and substeps that the scene leaves open are chosen for an accuracy of "
         << 100.0 * *scene.accuracy << " %");

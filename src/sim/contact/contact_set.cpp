@@ -71,11 +71,11 @@ void ContactSet::for_each_term(const Rods& rods, std::size_t index,
   }
 }
 
-void ContactSet::begin(const Rods& rods, const Friction* friction,
-                       const std::vector<Vector3d>& references, double step) {
+void ContactSet::begin(const Rods& rods, const Friction* friction, const FrictionOrigins& origins,
+                       double step) {
   frictions_.clear();
   friction_ = friction;
-  references_ = &references;
+  origins_ = origins;
   step_ = step;
   update_distances(rods);
   relax_initial_overlap(rods);
@@ -102,12 +102,13 @@ std::vector<ContactSet::FrictionPoint> ContactSet::find_friction(const Rods& rod
     for (std::size_t i = begin; i < end; ++i) {
       for_each_term(rods, i, buffer, [&](const ContactPoints& points, const DistanceTerm& term) {
         if (term.pressure > 0.0) {
-          Vector3d reference = point_at(*references_, points.edge_a, points.s);
+          Vector3d reference = point_at(*origins_.positions, points.edge_a, points.s);
           if (points.is_of_rods()) {
-            reference -= point_at(*references_, points.edge_b, points.t);
+            reference -= point_at(*origins_.positions, points.edge_b, points.t);
           }
-          by_chunk[index].push_back(
-              {points, term.normal, friction_->coefficient() * term.pressure, reference});
+          const double max_force = friction_->coefficient() * term.pressure;
+          reference -= origins_.anchors->slip_at(points, term.normal, max_force, stick_length_);
+          by_chunk[index].push_back({points, term.normal, max_force, reference});
         }
       });
     }
@@ -132,6 +133,16 @@ void ContactSet::update_friction(const Rods& rods, const std::vector<std::uint32
   const std::vector<FrictionPoint> found = find_friction(rods);
   std::copy_if(found.begin(), found.end(), std::back_inserter(frictions_), is_asked_for);
   evaluate_energies(rods, distance_count());
+}
+
+void ContactSet::add_anchors(const Rods& rods, FrictionAnchors& anchors) const {
+  for (const FrictionPoint& point : frictions_) {
+    const Vector3d slip = point.slip(rods);
+    const double length = slip.norm();
+    const Friction::Law law = Friction::law(std::min(length, stick_length_), stick_length_);
+    anchors.add({point.points, point.normal, slip / std::max(length, stick_length_),
+                 point.max_force * law.energy});
+  }
 }
 
 /// Contacts that begin the step where their energy is infinite get barriers that begin nearer.

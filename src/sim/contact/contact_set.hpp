@@ -9,6 +9,7 @@
 #include "fiber_proximity/sim/forces.hpp"
 #include "src/sim/contact/contact_terms.hpp"
 #include "src/sim/contact/edge_contact.hpp"
+#include "src/sim/contact/friction_anchors.hpp"
 #include "src/sim/contact/impact.hpp"
 #include "src/sim/contact/obstacle_contact.hpp"
 #include "src/sim/solver/line_search.hpp"
@@ -26,6 +27,12 @@ struct ObstacleEdge {
   std::array<Eigen::Vector3d, 2> starts;  ///< where the ends of the edge were then [m]
 };
 
+/// Where slips are measured from in a step.
+struct FrictionOrigins {
+  const std::vector<Eigen::Vector3d>* positions = nullptr;  ///< of nodes, when the step began [m]
+  const FrictionAnchors* anchors = nullptr;                 ///< the slips there were then
+};
+
 /// The contacts that some rods may have in a step: their potential, and that of friction in them.
 class ContactSet {
  public:
@@ -41,11 +48,12 @@ class ContactSet {
 
   /// Begins a step where the rods are: contacts that press there have friction, by the forces with
   /// which they press.
-  /// @param friction   null for none; must outlive the step
-  /// @param references of nodes: slips are measured from there [m]; must outlive the step
-  /// @param step       [s]
-  void begin(const Rods& rods, const Friction* friction,
-             const std::vector<Eigen::Vector3d>& references, double step);
+  /// @param friction null for none; must outlive the step
+  /// @param origins  of slips: where the nodes were when the anchors were found, and what slip
+  ///                 there was already; must outlive the step
+  /// @param step     [s]
+  void begin(const Rods& rods, const Friction* friction, const FrictionOrigins& origins,
+             double step);
 
   /// Makes the friction of some islands that of the normal forces where the rods are now, whose
   /// distances have been found, and updates its energies.
@@ -53,6 +61,10 @@ class ContactSet {
   /// @param which   by island: whether it is one of them
   void update_friction(const Rods& rods, const std::vector<std::uint32_t>& islands,
                        const std::vector<bool>& which);
+
+  /// Adds the slips at which the contacts with friction end the step.
+  /// @param rods where they are then
+  void add_anchors(const Rods& rods, FrictionAnchors& anchors) const;
 
   /// Finds the impacts of the step where it ends: if contacts press there that were not near when
   /// it began, and whose sides approached each other then faster than Impact::min_speed, those and
@@ -107,7 +119,7 @@ class ContactSet {
     ContactPoints points;
     Eigen::Vector3d normal;
     double max_force;           // [N]
-    Eigen::Vector3d reference;  // from the point of b to that of a, where slips begin [m]
+    Eigen::Vector3d reference;  // from the point of b to that of a, where its slip is nil [m]
 
     Eigen::Vector3d slip(const Rods& rods) const;
   };
@@ -132,7 +144,7 @@ class ContactSet {
   std::vector<FrictionPoint> frictions_;
   std::vector<Impact> impacts_;  // of the step
   const Friction* friction_ = nullptr;
-  const std::vector<Eigen::Vector3d>* references_ = nullptr;
+  FrictionOrigins origins_;
   double step_ = 0.0;          // [s]
   double stick_length_ = 0.0;  // [m]
   ContactTerms terms_;

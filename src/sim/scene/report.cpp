@@ -125,6 +125,9 @@ SimTrial try_scene(const SimDescription& description, std::uint32_t threads) {
 
 std::vector<std::string> omissions(const SimScene& scene) {
   std::vector<std::string> found = scene.material_defaults;
+  if (!scene.real_time_warning.empty()) {
+    found.push_back(scene.real_time_warning);
+  }
   const std::size_t obstacles = scene.environment->objects().size();
   if (obstacles > 0 && !scene.has_effect("environment_contact")) {
     found.push_back(format("fibres pass through the ", obstacles,
@@ -149,6 +152,9 @@ std::vector<std::string> omissions(const SimScene& scene) {
 SimReport report(const SimScene& scene, const SimTrial& trial) {
   SimReport report;
   report.warnings = omissions(scene);
+  if (!scene.real_time_note.empty()) {
+    report.facts.push_back(scene.real_time_note);
+  }
   assess_steps(scene, report);
   assess_grippers(scene, report);
   assess_trial(scene, trial, report);

@@ -11,6 +11,7 @@
 #include "src/sim/scene/keys.hpp"
 #include "src/sim/scene/parts.hpp"
 #include "src/sim/scene/reach.hpp"
+#include "src/sim/scene/resolution.hpp"
 #include "src/text/join.hpp"
 #include "src/text/quote.hpp"
 
@@ -215,8 +216,9 @@ void read_stepper_options(const YamlField& document, StepperOptions& options) {
 }
 
 /// Reads the obstacles of a scene, which are all in its frame: nothing moves them.
-void read_environment(const std::optional<YamlField>& field, const MeshSource& meshes,
-                      SimDescription& scene) {
+/// @returns what may touch, by names
+EnvironmentScene read_environment(const std::optional<YamlField>& field, const MeshSource& meshes,
+                                  SimDescription& scene) {
   const SimEffect* contact = scene.find_effect("environment_contact");
   if (!field && contact != nullptr) {
     throw std::invalid_argument(contact->place + ": the scene has no environment to touch");
@@ -232,7 +234,7 @@ void read_environment(const std::optional<YamlField>& field, const MeshSource& m
     objects.push_back(obstacle.object);
   }
   scene.environment = std::make_shared<const Environment>(std::move(objects));
-  scene.allowed = resolve(read.allowed, scene.fiber_names);
+  return read;
 }
 
 }  // namespace
@@ -247,7 +249,8 @@ const SimEffect* SimDescription::find_effect(const std::string& name) const {
   return found == effects.end() ? nullptr : &*found;
 }
 
-SimDescription read_sim_scene(const YamlField& document, const MeshSource& meshes) {
+SimDescription read_sim_scene(const YamlField& document, const MeshSource& meshes,
+                              const FrameTimer& timer) {
   document.require_map(key_names("scene"));
   SimDescription scene;
   if (const auto frame_id = document.find("frame_id")) {
@@ -257,13 +260,17 @@ SimDescription read_sim_scene(const YamlField& document, const MeshSource& meshe
   read_within(document, "max_strain", scene.max_strain);
   const auto holds = read_effects(document.get("effects"), scene);
   read_stepper_options(document, scene.options);
-  read_fibers(document, gravity_of(scene), scene);
-  read_environment(document.find("environment"), meshes, scene);
-  if (holds) {
-    read_holds(*holds, scene);
-  }
+  const SceneResolution resolution(document, gravity_of(scene));
+  const EnvironmentScene environment =
+      read_environment(document.find("environment"), meshes, scene);
   scene.separates_overlaps = read_choice(document.find("initial_overlap"), "refuse", "separate");
-  return scene;
+  const auto complete = [&](SimDescription& made) {
+    made.allowed = resolve(environment.allowed, made.fiber_names);
+    if (holds) {
+      read_holds(*holds, made);
+    }
+  };
+  return resolution.apply(scene, complete, timer);
 }
 
 void SimScene::advance() {

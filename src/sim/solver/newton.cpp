@@ -66,7 +66,7 @@ std::optional<double> NewtonSolver::solve(Rods& rods, const Problem& problem) {
     bound_.begin(problem.travel_bound, static_cast<std::uint32_t>(states_.size()));
   }
   if (problem.contacts != nullptr) {
-    problem.contacts->begin(rods, problem.friction, problem.references, problem.step);
+    problem.contacts->begin(rods, problem.friction, problem.origins, problem.step);
   }
   evaluate_energies(rods, problem);
   find_stored_energies(problem, max_kinetic_);

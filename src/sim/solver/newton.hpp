@@ -40,12 +40,12 @@ class NewtonSolver {
   struct Problem {
     const Effects& effects;
     const StepperOptions& options;
-    double step;                                     ///< [s]
-    ContactSet* contacts;                            ///< null for none
-    const TravelBound* travel_bound;                 ///< null: rods may go anywhere
-    const Friction* friction;                        ///< null for none
-    const std::vector<Eigen::Vector3d>& references;  ///< where rates are measured from, by node [m]
-    bool has_start_rates;  ///< whether that is the start: only such a step resolves its impacts
+    double step;                      ///< [s]
+    ContactSet* contacts;             ///< null for none
+    const TravelBound* travel_bound;  ///< null: rods may go anywhere
+    const Friction* friction;         ///< null for none
+    FrictionOrigins origins;          ///< where the slips of friction are measured from
+    bool has_start_rates;  ///< measured from the start: only such a step resolves its impacts
   };
 
   /// Replaces the rods that it solves for. Memory is reused.

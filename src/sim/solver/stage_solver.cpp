@@ -48,6 +48,8 @@ void StageSolver::solve(Rods& rods, const Effects& effects, const TimeStep& stag
     }
     reference_ = rods.state();
   }
+  const RodState* const begin = stage.earlier.front().state;
+  origins_ = {begin != nullptr ? &begin->positions : &start_.positions, &anchors_};
   arena_.execute([&] {
     for (const auto& effect : effects) {
       effect->begin_step(rods, stage);
@@ -199,7 +201,7 @@ void StageSolver::solve_group(Rods& rods, const Effects& effects, double step, G
   const Friction* const friction = bounds ? contacts_->friction() : nullptr;
   const std::optional<double> gain =
       solver->solve(rods, {effects, options_, step, bounds ? &group.contacts : nullptr,
-                           travel_bound, friction, reference_.positions, has_start_rates_});
+                           travel_bound, friction, origins_, has_start_rates_});
   group.is_solved = gain.has_value();
   group.stored_gain = gain.value_or(0.0);
   group.has_impacts = solver->has_impacts();
@@ -227,6 +229,14 @@ void StageSolver::copy_state(const RodState& state, const Group& group, Rods& ro
       }
     }
   }
+}
+
+void StageSolver::keep_anchors(const Rods& rods) {
+  anchors_.clear();
+  for (const Group& group : groups_) {
+    group.contacts.add_anchors(rods, anchors_);
+  }
+  anchors_.sort();
 }
 
 bool StageSolver::has_impacts() const {

@@ -52,6 +52,13 @@ class StageSolver {
   /// @param reference where rates are measured from; null for where the solve starts
   void solve(Rods& rods, const Effects& effects, const TimeStep& stage, const RodState* reference);
 
+  /// Keeps the slips at which friction ends the step, for the next one: the last solve was its
+  /// last.
+  void keep_anchors(const Rods& rods);
+
+  /// The elastic energy of what sticks by friction [J].
+  double anchor_energy() const { return anchors_.energy(); }
+
   /// Whether the last solve found impacts. It resolves them only if rates are measured from where
   /// it starts: extrapolated ones lead through the impact.
   bool has_impacts() const;
@@ -101,6 +108,8 @@ class StageSolver {
   bool is_at_start_ = true;  // whether rods are where the solve starts, and rates are measured from
   RodState start_;
   RodState reference_;
+  FrictionAnchors anchors_;                                       // of the step before
+  FrictionOrigins origins_;                                       // of the solve
   double last_step_ = 0.0;                                        // [s]
   tbb::concurrent_queue<std::unique_ptr<NewtonSolver>> solvers_;  // that are not at work
 };

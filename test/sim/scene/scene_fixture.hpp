@@ -42,9 +42,9 @@ class SimSceneTest : public ::testing::Test {
  protected:
   SimSceneTest() : file_(folder_.path("scene.yaml")) {}
 
-  SimDescription describe(const std::string& text) {
+  SimDescription describe(const std::string& text, const FrameTimer& timer = {}) {
     test_meshes::write(file_, text);
-    return read_sim_scene(load_yaml(file_), mesh_files(folder_.path("")));
+    return read_sim_scene(load_yaml(file_), mesh_files(folder_.path("")), timer);
   }
 
   SimScene read(const std::string& text) { return make_sim_scene(describe(text), 1); }

@@ -37,6 +37,11 @@ struct SimSettings {
   /// Sentences: what materials leave open, and what is taken for it.
   std::vector<std::string> material_defaults;
 
+  /// Sentences of scenes with `real_time`: what was chosen, and what share of the time there is it
+  /// takes. It is the warning where that is more than the share that was aimed at.
+  std::string real_time_note;
+  std::string real_time_warning;
+
   bool has_effect(const std::string& name) const;
   double step_length() const { return time_step / substeps; }  ///< [s]
 };
@@ -101,13 +106,20 @@ struct SimDescription : SimSettings {
   const SimEffect* find_effect(const std::string& name) const;
 };
 
+/// Simulates a scene from its beginning, and returns what each frame takes of one core [s], the
+/// first one at least, until they have taken a budget [s] together.
+using FrameTimer = std::function<std::vector<double>(const SimDescription& scene, double budget)>;
+
 /// Reads a scene with the keys fibers, effects, environment (read_environment_scene()), frame_id,
 /// time_step, substeps, iterations, residual, integrator, accuracy, real_time, initial_overlap,
 /// max_strain.
 /// docs/scene_keys.md says what they mean.
+/// @param timer for scenes with `real_time`, whose segments and substeps are chosen by it; without
+///              one, the processor time of this thread is measured, for about two seconds
 /// @throws std::invalid_argument naming file, line, field and value, and what is allowed; and the
 ///         fibre where it is about one
-SimDescription read_sim_scene(const YamlField& document, const MeshSource& meshes);
+SimDescription read_sim_scene(const YamlField& document, const MeshSource& meshes,
+                              const FrameTimer& timer = {});
 
 /// A parameter of an effect, one number or several, that may change between two steps.
 struct SimParameter {

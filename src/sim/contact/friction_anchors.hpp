@@ -1,0 +1,49 @@
+#pragma once
+
+#include <vector>
+
+#include "fiber_proximity/sim/contacts.hpp"
+#include "src/sim/contact/contact_terms.hpp"
+
+namespace fiber {
+
+/// The slips at which contacts with friction ended a step: elastic ones, which their friction
+/// begins the next step with. So what sticks holds a load at rest, as the bristles of a surface do
+/// (Cundall and Strack 1979), and does not creep.
+class FrictionAnchors {
+ public:
+  /// The friction of a contact at the end of a step.
+  struct Anchor {
+    ContactPoints points;
+    Eigen::Vector3d normal;  ///< of length 1
+    Eigen::Vector3d slip;    ///< in parts of the stick length: of length 1 where it slides
+    double energy;           ///< [J]
+  };
+
+  void clear() { anchors_.clear(); }
+  void add(const Anchor& anchor) { anchors_.push_back(anchor); }
+
+  /// To be called after the last add().
+  void sort();
+
+  /// The energy of all [J].
+  double energy() const { return energy_; }
+
+  /// The slip with which a contact begins: that of the nearest anchor between the same two bodies,
+  /// which lies no more than one edge away on either. Contacts wander over the edges of a rod, and
+  /// end and begin at their nodes. Where the contact presses more than that of the anchor did, its
+  /// slip is less, so that its energy is no more.
+  /// @param max_force    of friction [N]
+  /// @param stick_length [m]
+  /// @returns in [m]; zero where there is no such anchor
+  Eigen::Vector3d slip_at(const ContactPoints& points, const Eigen::Vector3d& normal,
+                          double max_force, double stick_length) const;
+
+ private:
+  const Anchor* nearest(const ContactPoints& points, const Eigen::Vector3d& normal) const;
+
+  std::vector<Anchor> anchors_;
+  double energy_ = 0.0;
+};
+
+}  // namespace fiber

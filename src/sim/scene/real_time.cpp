@@ -1,0 +1,176 @@
+#include "src/sim/scene/real_time.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <stdexcept>
+
+namespace fiber {
+namespace {
+
+/// [s] of one core, for all measurements of a scene.
+constexpr double trial_budget = 2.0;
+
+/// [s] of the scene: until then most of what falls has fallen.
+constexpr double trial_time = 3.0;
+
+/// The accuracies to choose from fall from the coarsest by this factor, to the finest.
+constexpr double accuracy_ratio = 0.9;
+constexpr double finest_accuracy = 1e-4;
+
+struct Measurement {
+  Resolution resolution;
+  double work = 0.0;
+  double share = 0.0;
+  std::vector<double> frame_times;  // [s]
+};
+
+double sum(const std::vector<double>& times, std::size_t count) {
+  return std::accumulate(times.begin(), times.begin() + static_cast<std::ptrdiff_t>(count), 0.0);
+}
+
+/// The finest resolution of at most this work, or the coarsest one. Where one substep more would be
+/// too much, segments alone are finer.
+Resolution finest_within(const RealTimeScene& scene, double work) {
+  Resolution finest = coarsest_resolution;
+  const auto refine = [&](bool is_segments_alone) {
+    for (Resolution next = finest; next.segments > finest_accuracy; finest = next) {
+      next.segments *= accuracy_ratio;
+      next.substeps *= is_segments_alone ? 1.0 : accuracy_ratio;
+      if (scene.work(next) > work) {
+        return;
+      }
+    }
+  };
+  refine(false);
+  refine(true);
+  return finest;
+}
+
+/// Measures a resolution. The share of frames that were not reached is that of an earlier
+/// measurement, in proportion.
+Measurement measure(const RealTimeScene& scene, const Resolution& resolution, double budget,
+                    const std::optional<Measurement>& earlier) {
+  Measurement measured{resolution, scene.work(resolution), 0.0,
+                       scene.frame_times(resolution, budget)};
+  const std::size_t frames = measured.frame_times.size();
+  const double taken = sum(measured.frame_times, frames);
+  if (earlier && earlier->frame_times.size() > frames) {
+    measured.share = earlier->share * taken / sum(earlier->frame_times, frames);
+    // The next measurement compares with this one: what it has not seen is in proportion.
+    for (std::size_t i = frames; i < earlier->frame_times.size(); ++i) {
+      measured.frame_times.push_back(earlier->frame_times[i] * measured.share / earlier->share);
+    }
+  } else {
+    measured.share = taken / (static_cast<double>(frames) * scene.time_step);
+  }
+  return measured;
+}
+
+/// Measures the coarsest resolution with which the scene can be made. Coarse polygons may lie in
+/// each other where the curves do not.
+Measurement measure_first(const RealTimeScene& scene) {
+  for (Resolution resolution = coarsest_resolution;;) {
+    try {
+      return measure(scene, resolution, trial_budget, std::nullopt);
+    } catch (const std::invalid_argument&) {
+      constexpr double finest_tried = 1e-3;
+      if (resolution.segments <= finest_tried) {
+        throw;
+      }
+      resolution.segments *= 0.5;
+      resolution.substeps *= 0.5;
+    }
+  }
+}
+
+/// Measures the finest resolution of about this work with which the scene can be made.
+/// @returns none if there is none that is nearer to it than the earlier one
+std::optional<Measurement> measure_near(const RealTimeScene& scene, double work, double budget,
+                                        const Measurement& earlier) {
+  for (const double detour : {1.0, 0.9, 1.1, 0.8, 1.2, 0.7, 1.5, 0.5, 2.0, 0.3, 3.0}) {
+    constexpr double rounding = 1e-9;
+    const Resolution resolution = finest_within(scene, work * detour * (1.0 + rounding));
+    const double found = scene.work(resolution);
+    const bool is_nearer = work > earlier.work ? found > earlier.work : found < earlier.work;
+    if (!is_nearer) {
+      continue;
+    }
+    try {
+      return measure(scene, resolution, budget, earlier);
+    } catch (const std::invalid_argument&) {
+      continue;  // polygons may lie in each other where finer and coarser ones do not
+    }
+  }
+  return std::nullopt;
+}
+
+double thread_time() {
+  std::timespec time = {};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+}  // namespace
+
+RealTimeChoice choose_for_real_time(const RealTimeScene& scene) {
+  constexpr double near = 0.1;           // of the aim
+  constexpr double max_growth = 6.0;     // of the share, from a measurement to the next
+  constexpr double least_budget = 0.25;  // [s] that a measurement is worth
+  constexpr int max_measurements = 10;
+  double used = 0.0;
+  const RealTimeScene counted{scene.work,
+                              [&](const Resolution& resolution, double budget) {
+                                auto times = scene.frame_times(resolution, budget);
+                                used += sum(times, times.size());
+                                return times;
+                              },
+                              scene.time_step};
+  Measurement best = measure_first(counted);
+  double power = 1.0;  // of the work that the share grows with
+  for (int i = 1; std::abs(best.share / aimed_share - 1.0) > near; ++i) {
+    const bool is_last = used > trial_budget - least_budget || i == max_measurements;
+    const double growth = std::min(aimed_share / best.share,
+                                   is_last ? std::numeric_limits<double>::infinity() : max_growth);
+    const double work = best.work * std::pow(growth, 1.0 / power);
+    const auto next = measure_near(counted, work, is_last ? 0.0 : trial_budget - used, best);
+    if (!next) {
+      break;  // there is nothing nearer to the aim
+    }
+    const double ratio = next->work / best.work;
+    if (is_last) {
+      return {next->resolution, best.share * std::pow(ratio, power)};
+    }
+    power = std::clamp(std::log(next->share / best.share) / std::log(ratio), 0.5, 2.0);
+    best = *next;
+  }
+  return {best.resolution, best.share};
+}
+
+std::vector<double> measure_frames(const SimDescription& description, double budget) {
+  SimScene scene = make_sim_scene(description, 1);
+  const double max_frames = std::max(1.0, std::ceil(trial_time / scene.time_step));
+  std::vector<double> times;
+  const double begin = thread_time();
+  double before = begin;
+  while (static_cast<double>(times.size()) < max_frames && before - begin < budget) {
+    bool has_failed = false;
+    try {
+      scene.advance();
+    } catch (const std::runtime_error&) {
+      has_failed = true;  // the frames so far are what there is to measure
+    }
+    const double now = thread_time();
+    times.push_back(now - before);
+    before = now;
+    if (has_failed) {
+      break;
+    }
+  }
+  return times;
+}
+
+}  // namespace fiber
