@@ -6,11 +6,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "fiber_proximity/sim/effects.hpp"
 #include "test/sim/energy_bounds.hpp"
 #include "test/sim/random_rods.hpp"
+#include "test/sim/random_scene.hpp"
 #include "test/sim/tunnelling.hpp"
 #include "test/support/random.hpp"
 #include "test/support/rounds.hpp"
@@ -26,134 +26,6 @@ constexpr int steps_of_first = 10000;
 constexpr int steps_of_others = 250;
 constexpr double most_gained = 1.0;  // by steps of one to three iterations, of what there was
 constexpr double top = 1.5;          // [m] rods begin below, above a table at 0
-
-/// Rods and effects of which each is there by chance, and what it takes to judge them.
-struct Scene {
-  Rods rods;
-  Effects effects;
-  std::unique_ptr<Contacts> contacts;
-  StepperOptions options;
-  double step = 0.0;
-  bool is_windy = false;
-  bool is_inextensible = false;
-  std::string description;
-};
-
-/// Chains in cells of their own, so that none begins in another, thrown at each other.
-Rods random_rods_apart(Random& random, double cell) {
-  Rods rods;
-  const RodMaterial material{std::pow(10.0, random.uniform(5.0, 9.0)),
-                             std::pow(10.0, random.uniform(5.0, 9.0)),
-                             random.uniform(500.0, 5000.0)};
-  const double radius = cell * random.uniform(0.01, 0.04);
-  const RodSection section = solid_round_section(material, radius);
-  const int count = random.integer(2, 5);
-  const double speed = std::pow(10.0, random.uniform(-1.0, 1.0));
-  for (int rod = 0; rod < count; ++rod) {
-    const int edges = random.integer(1, 14);
-    const int layer = rod / 4;
-    const Vector3d middle(cell * (rod % 2), cell * (rod / 2 % 2), 0.1 + cell * (0.5 + layer));
-    std::vector<Vector3d> points{middle};
-    Vector3d direction = random.direction();
-    for (int i = 0; i < edges; ++i) {
-      points.push_back(points.back() + 0.4 * cell / edges * direction);
-      direction = (direction + 0.2 * random.direction()).normalized();
-    }
-    rods.add(points, radius, section);
-    const Vector3d velocity = speed * random.direction();
-    for (std::uint32_t i = rods.first(rods.count() - 1); i < rods.positions.size(); ++i) {
-      rods.velocities[i] = velocity;
-    }
-  }
-  return rods;
-}
-
-class SceneMaker {
- public:
-  explicit SceneMaker(Random& random) : random_(random) {}
-
-  Scene make() {
-    scene_.rods = random_rods_apart(random_, 0.3);
-    add_effects();
-    add_contacts();
-    scene_.options.max_iterations = static_cast<std::uint32_t>(random_.integer(1, 3));
-    scene_.step = std::pow(10.0, random_.uniform(-3.0, -1.7));
-    text_ << scene_.rods.count() << " rods, " << scene_.options.max_iterations
-          << " iterations, step " << scene_.step;
-    scene_.description = text_.str();
-    return std::move(scene_);
-  }
-
- private:
-  bool chance(const char* name, double probability) {
-    const bool is = random_.chance(probability);
-    text_ << (is ? name : "") << (is ? " " : "");
-    return is;
-  }
-
-  void add(std::unique_ptr<Effect> effect) { scene_.effects.push_back(std::move(effect)); }
-
-  template <class Make>
-  void maybe(const char* name, const Make& make) {
-    if (chance(name, 0.6)) {
-      add(make());
-    }
-  }
-
-  void add_effects() {
-    Rods& rods = scene_.rods;
-    scene_.is_inextensible = chance("inextensible", 0.3);
-    if (scene_.is_inextensible) {
-      add(std::make_unique<Inextensible>(rods));
-    } else {
-      maybe("stretch", [] { return std::make_unique<Stretch>(); });
-    }
-    maybe("gravity", [] { return std::make_unique<Gravity>(Vector3d(0, 0, -standard_gravity)); });
-    maybe("bend", [] { return std::make_unique<Bend>(); });
-    maybe("twist", [&] { return std::make_unique<Twist>(rods); });
-    maybe("damping",
-          [&] { return std::make_unique<Damping>(std::pow(10.0, random_.uniform(-4.0, 0.0))); });
-    maybe("plasticity", [&] { return std::make_unique<Plasticity>(rods, Plasticity::Options{}); });
-    if (chance("drag", 0.3)) {
-      scene_.is_windy = true;
-      Drag::Options wind;
-      wind.wind.mean = random_.in_cube(5.0);
-      add(std::make_unique<Drag>(wind));
-    }
-    maybe("attachment", [&] {
-      const auto node = static_cast<std::uint32_t>(random_.integer(0, 1)) * rods.node_count(0) / 2;
-      return hold(rods, {pin(node, rods.positions[node])});
-    });
-  }
-
-  void add_contacts() {
-    std::vector<std::unique_ptr<ContactSource>> sources;
-    sources.push_back(std::make_unique<FiberContact>(FiberContact::Options{}));
-    if (chance("table", 0.6)) {
-      sources.push_back(std::make_unique<EnvironmentContact>(environment_of(HalfSpaceShape{}),
-                                                             EnvironmentContact::Options{}));
-    }
-    std::unique_ptr<Friction> friction;
-    if (chance("friction", 0.6)) {
-      friction = std::make_unique<Friction>(Friction::Options{random_.uniform(0.0, 1.0), 1e-3});
-    }
-    scene_.contacts = std::make_unique<Contacts>(std::move(sources), std::move(friction));
-  }
-
-  Random& random_;
-  Scene scene_;
-  std::ostringstream text_;
-};
-
-/// The energy of rods that touch nothing yet [J].
-double energy_at_start(const Effects& effects, Rods& rods, double step) {
-  begin(effects, rods, step);
-  double energy = kinetic_energy(rods);
-  for (const Effect* effect : storing_of(effects)) {
-    energy += energy_of(*effect, rods);
-  }
-  return energy;
-}
 
 /// The kinetic energy of how speeds have changed [J].
 double energy_of_change(Rods rods, const Rods& before) {
@@ -189,7 +61,7 @@ TEST(RandomContacts, NothingPassesThroughAnythingOrBlowsUp) {
   Random random;
   double moved = 0.0;  // [m] the least of a scene's fastest rods
   for (int round = 0; round < rounds(scenes); ++round) {
-    Scene scene = SceneMaker(random).make();
+    RandomScene scene = RandomSceneMaker(random).make();
     SCOPED_TRACE("round " + std::to_string(round) + ": " + scene.description);
     double weight = 0.0;  // [N]
     for (const double mass : scene.rods.masses) {

@@ -83,6 +83,19 @@ inline bool meet(const MovingEdge& a, const MovingEdge& b) {
   return false;
 }
 
+/// On one rod and within what self-contact leaves out.
+inline bool are_near(const Rods& rods, std::uint32_t i, std::uint32_t j) {
+  double between = 0.0;
+  for (std::uint32_t k = i + 1; k <= j; ++k) {
+    if (rods.rest_lengths[k - 1] == 0.0) {
+      return false;  // the end of a rod
+    }
+    between += k < j ? rods.rest_lengths[k] : 0.0;
+  }
+  const double largest = *std::max_element(rods.radii.begin(), rods.radii.end());
+  return j - i <= 2 || between < 4.0 * largest;
+}
+
 /// Looks whether axes of rods meet, from one call to the next.
 class TunnellingChecker {
  public:
@@ -168,19 +181,6 @@ class TunnellingChecker {
       return path.position(rod, node, when, pieces);
     };
     return {{at(edge, piece), at(edge + 1, piece)}, {at(edge, piece + 1), at(edge + 1, piece + 1)}};
-  }
-
-  /// On one rod and within what self-contact leaves out.
-  static bool are_near(const Rods& rods, std::uint32_t i, std::uint32_t j) {
-    double between = 0.0;
-    for (std::uint32_t k = i + 1; k <= j; ++k) {
-      if (rods.rest_lengths[k - 1] == 0.0) {
-        return false;  // the end of a rod
-      }
-      between += k < j ? rods.rest_lengths[k] : 0.0;
-    }
-    const double largest = *std::max_element(rods.radii.begin(), rods.radii.end());
-    return j - i <= 2 || between < 4.0 * largest;
   }
 
   std::vector<Eigen::Vector3d> before_;
