@@ -243,7 +243,11 @@ std::vector<SceneMap> effect_maps() {
       {"stretch", "EA resists changes of length.", true, {}},
       {"inextensible", "In place of `stretch`: lengths stay.", true, {}},
       bend_map(),
-      {"twist", "GJ resists twist, and clamps hold the section, too.", true, {}},
+      {"twist",
+       "GJ resists twist, and clamps hold the section, too. Friction acts at the surface, so that "
+       "fibres roll.",
+       true,
+       {}},
       {"damping",
        "Of stretch, bend and twist. Rigid motion is never damped.",
        true,
@@ -259,11 +263,12 @@ std::vector<SceneMap> effect_maps() {
       contact_map("fiber_contact", "Fibres touch each other."),
       contact_map("environment_contact", "Fibres touch the obstacles of `environment`."),
       {"friction",
-       "In all contacts, of which the scene must name some.",
+       "In all contacts, of which the scene must name some. Without `twist` it acts on the axes: "
+       "fibres slide, and never roll.",
        true,
        {number_key("coefficient", at_least_0, friction.coefficient, "", ""),
         number_key("stick_speed", above_0, friction.stick_speed, "m/s",
-                   "what sticks creeps more slowly")}}};
+                   "over a step, the length by which what sticks gives way before it slides")}}};
   for (SceneMap& map : attachment_maps()) {
     maps.push_back(std::move(map));
   }
