@@ -1,6 +1,8 @@
 // Rods and effects drawn at random, for tests and campaigns.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -173,6 +175,35 @@ inline double energy_at_start(const Effects& effects, Rods& rods, double step) {
     energy += energy_of(*effect, rods);
   }
   return energy;
+}
+
+/// The kinetic energy of how speeds have changed [J].
+inline double energy_of_change(Rods rods, const Rods& before) {
+  for (std::size_t i = 0; i < rods.velocities.size(); ++i) {
+    rods.velocities[i] -= before.velocities[i];
+  }
+  for (std::size_t i = 0; i < rods.spins.size(); ++i) {
+    rods.spins[i] -= before.spins[i];
+  }
+  return kinetic_energy(rods);
+}
+
+/// Not to move at all would leave the incremental potential that there was of kinetic and stored
+/// energy, and no step ends higher, however few its iterations are. So what is stored after it, and
+/// half the square of how speeds have changed, are no more than there was: a step that is cut short
+/// may gain energy only by that much. Impacts, which change speeds once more, give back no more
+/// than the step has taken.
+inline testing::AssertionResult gains_no_more_than_it_may(const Stepper& stepper,
+                                                          const Rods& before, double slack) {
+  const double gain = stepper.report().energy_gain;
+  double most = kinetic_energy(stepper.rods()) - energy_of_change(stepper.rods(), before) + slack;
+  if (stepper.report().impacts > 0) {
+    most = std::max(most, slack);
+  }
+  if (gain <= most) {
+    return testing::AssertionSuccess();
+  }
+  return testing::AssertionFailure() << "gains " << gain << " J, at most were " << most << " J";
 }
 
 }  // namespace fiber::test
