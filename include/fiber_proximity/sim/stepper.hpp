@@ -65,9 +65,9 @@ struct StepReport {
   bool is_first_order = false;
 
   /// The increase of kinetic and stored energy by the step, without the work of its input [J]. A
-  /// converged step of implicit Euler gains none where the stored energy is convex on its way. Where
-  /// it is not, as in buckling, it may gain what is left of the kinetic energy of the end less that
-  /// of how speeds have changed, and so may a step that its iterations cut short.
+  /// converged step of implicit Euler gains none where the stored energy is convex on its way.
+  /// Where it is not, as in buckling, it may gain what is left of the kinetic energy of the end
+  /// less that of how speeds have changed, and so may a step that its iterations cut short.
   double energy_gain = 0.0;
 };
 
