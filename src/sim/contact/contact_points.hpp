@@ -29,13 +29,13 @@ inline Eigen::Vector3d point_at(const std::vector<Eigen::Vector3d>& values, std:
   return (1.0 - parameter) * values[edge] + parameter * values[edge + 1];
 }
 
-/// The velocity of a's point against b's, or against an obstacle [m/s].
-/// @param velocities of nodes [m/s]
-inline Eigen::Vector3d relative_velocity(const std::vector<Eigen::Vector3d>& velocities,
-                                         const ContactPoints& points) {
-  Eigen::Vector3d found = point_at(velocities, points.edge_a, points.s);
+/// The value at a's point less that at b's; with an obstacle, that at a's point.
+/// @param values of nodes: positions, or velocities
+inline Eigen::Vector3d difference_of_points(const std::vector<Eigen::Vector3d>& values,
+                                            const ContactPoints& points) {
+  Eigen::Vector3d found = point_at(values, points.edge_a, points.s);
   if (points.is_of_rods()) {
-    found -= point_at(velocities, points.edge_b, points.t);
+    found -= point_at(values, points.edge_b, points.t);
   }
   return found;
 }

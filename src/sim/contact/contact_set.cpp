@@ -98,10 +98,7 @@ std::vector<ContactSet::FrictionPoint> ContactSet::find_friction(const Rods& rod
     for (std::size_t i = begin; i < end; ++i) {
       for_each_term(rods, i, buffer, [&](const ContactPoints& points, const DistanceTerm& term) {
         if (term.pressure > 0.0) {
-          Vector3d reference = point_at(origins_.state->positions, points.edge_a, points.s);
-          if (points.is_of_rods()) {
-            reference -= point_at(origins_.state->positions, points.edge_b, points.t);
-          }
+          Vector3d reference = difference_of_points(origins_.state->positions, points);
           const auto levers = surface_levers(rods, points, term.normal);
           if (levers) {
             reference +=

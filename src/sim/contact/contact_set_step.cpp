@@ -206,7 +206,7 @@ std::vector<Impact> ContactSet::find_impacts(const Rods& rods) const {
       if (!(term.pressure > 0.0)) {
         return;
       }
-      const double approach = -relative_velocity(rods.velocities, points).dot(term.normal);
+      const double approach = -difference_of_points(rods.velocities, points).dot(term.normal);
       const bool has_begun = !was_near_[i] && approach > Impact::min_speed;
       has_any_begun |= has_begun;
       found.push_back({points, term.normal, surface_levers(rods, points, term.normal), has_begun,

@@ -35,8 +35,7 @@ std::optional<SurfaceLevers> surface_levers(const Rods& rods, const ContactPoint
                          SurfaceLever{zero, zero, 0.0, zero}};
   }
   const double other_radius = rods.radii[points.rod_b];
-  const double distance = normal.dot(point_at(rods.positions, points.edge_a, points.s) -
-                                     point_at(rods.positions, points.edge_b, points.t));
+  const double distance = normal.dot(difference_of_points(rods.positions, points));
   const double share = distance / (radius + other_radius);
   return SurfaceLevers{lever(points.edge_a, -share * radius * normal),
                        lever(points.edge_b, share * other_radius * normal)};
