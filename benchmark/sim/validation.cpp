@@ -3,6 +3,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "validation/sim/elastica.hpp"
 #include "validation/sim/friction_scenes.hpp"
 #include "validation/sim/instability.hpp"
 #include "validation/sim/motion.hpp"
@@ -111,6 +112,17 @@ void validate_instability(const Report& report) {
   report({"Greenhill's buckling", "twisted between hinges", "ML/EI", segments, moment,
           threshold(moment, [](double load) { return growth_of_hinged(load) > 1.0; }),
           two_percent});
+  constexpr double twisting_stiffness = 2.0 / 3.0;
+  for (const double mass : {20.0, 40.0, 80.0}) {
+    const double curvature = critical_natural_curvature(mass, twisting_stiffness);
+    report({"bend–twist", text("GJ/EI = 2/3, ρAgL³/EI", mass), "natural curvature × L", segments,
+            curvature,
+            threshold(curvature,
+                      [&](double kappa) {
+                        return growth_of_curved(mass, twisting_stiffness, kappa) > 1.0;
+                      }),
+            two_percent});
+  }
   constexpr int ring_steps = 800;
   const double ring = critical_twist_of_ring();
   report({"Michell's ring", "GJ = EI", "twist [rad]", segments, ring,
@@ -128,6 +140,11 @@ void validate_friction(const Report& report) {
     });
     report({"incline", text("μ", friction), "slope where it slides [°]", 10,
             std::atan(friction) * 180.0 / M_PI, std::atan(slope) * 180.0 / M_PI, two_percent});
+  }
+  for (const double friction : {0.1, 0.2, 0.3}) {
+    report({"stick–slip", text("μ", friction), "lowering / L where the tip slides", segments,
+            lowering_until_tip_slides(friction, 0.0), lowering_of_simulated_tip(friction, segments),
+            two_percent});
   }
   constexpr double friction = 0.3;
   constexpr int edges_per_turn = 64;

@@ -6,6 +6,7 @@
 
 #include "fiber_proximity/sim/contacts.hpp"
 #include "validation/sim/contact_scenes.hpp"
+#include "validation/sim/elastica.hpp"
 #include "validation/sim/friction_scenes.hpp"
 
 namespace fiber::test {
@@ -34,6 +35,11 @@ TEST_P(Coefficient, ARodSlidesDownSlopesAboveIt) {
 }
 
 INSTANTIATE_TEST_SUITE_P(OfFriction, Coefficient, testing::Values(0.1, 0.2, 0.3));
+
+TEST_P(Coefficient, ATipThatIsPushedOntoAPlaneSlidesWhereTheElasticaSays) {
+  const double theory = lowering_until_tip_slides(GetParam(), 0.0);
+  EXPECT_NEAR(lowering_of_simulated_tip(GetParam(), 50), theory, 0.02 * theory);
+}
 
 TEST(Friction, TheLawHasTheDerivativesItTellsAlsoWhereSlippingBegins) {
   constexpr double stick_length = 1e-3;

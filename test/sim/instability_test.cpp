@@ -6,6 +6,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
+
+#include "validation/sim/elastica.hpp"
 
 namespace fiber::test {
 namespace {
@@ -31,6 +34,16 @@ TEST(Instability, ATwistedRodBucklesBetweenHinges) {
   const double critical = critical_moment_of_hinged();
   EXPECT_LT(growth_of_hinged(below * critical), 1.0);
   EXPECT_GT(growth_of_hinged(above * critical), 10.0);
+}
+
+TEST(Instability, ARodBentByNatureLeavesItsPlane) {
+  for (const auto& [weight, twisting] :
+       {std::pair{20.0, 2.0 / 3.0}, {80.0, 2.0 / 3.0}, {40.0, 1.0}}) {
+    SCOPED_TRACE(weight);
+    const double critical = critical_natural_curvature(weight, twisting);
+    EXPECT_LT(growth_of_curved(weight, twisting, below * critical), 1.0);
+    EXPECT_GT(growth_of_curved(weight, twisting, above * critical), 10.0);
+  }
 }
 
 TEST(Instability, ATwistedRingLeavesItsPlane) {

@@ -134,4 +134,33 @@ double tension_ratio(const Capstan& capstan, double friction) {
   return beyond / before;
 }
 
+double lowering_of_simulated_tip(double friction, int segments) {
+  constexpr double radius = 1e-3;
+  constexpr double step = 0.01;
+  constexpr double speed = 0.01;
+  constexpr double slid = 2e-5;  // twice as far as it gives way while it sticks
+  const Vector3d down = -Vector3d::UnitZ();
+  const Vector3d top(0.0, 0.0, 1.0 + 1.04 * radius);
+  Rods rods;
+  rods.add(straight(top, top + down, segments), radius, {1e5, 1.0, 1.0, 1.0, 1e-4});
+  const auto lower = [=](double time) {
+    return Placement{top + speed * time * down, down, Vector3d::UnitX()};
+  };
+  for (int i = 1; i < segments; ++i) {
+    rods.velocities[i].x() = 1e-3;  // to which side it buckles
+  }
+  Effects all = elastic();
+  all.push_back(std::make_unique<Damping>(0.1));  // or it would slide as it buckles
+  all.push_back(hold(rods, {{0, 0, Attachment::Kind::CLAMP, lower}}));
+  StepperOptions options;
+  options.residual = 1e-6;
+  Stepper stepper(rods, std::move(all), options,
+                  contacts_with(environment_of(HalfSpaceShape{Vector3d::UnitZ(), 0.0}), friction));
+  const Vector3d& tip = stepper.rods().positions[segments];
+  while (std::abs(tip.x()) < slid) {
+    stepper.step(step);
+  }
+  return 1.0 - (stepper.rods().positions[0] - tip).z();
+}
+
 }  // namespace fiber

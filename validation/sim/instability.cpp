@@ -1,10 +1,12 @@
 #include "validation/sim/instability.hpp"
 
+#include <cassert>
 #include <cmath>
 #include <iterator>
 
 #include "fiber_proximity/sim/effects.hpp"
 #include "src/geometry/smallest_rotation.hpp"
+#include "src/sim/effects/natural_bend.hpp"
 #include "validation/sim/rod_scene.hpp"
 #include "validation/sim/root.hpp"
 
@@ -39,6 +41,13 @@ double growth(const Stepper& stepper, const Advance& advance, const Distance& di
     advance();
   }
   return distance(stepper.rods()) / early;
+}
+
+/// A step without inertia: an unstable shape is left without swinging.
+void creep(Stepper& stepper, double step) {
+  stepper.step(step);
+  std::fill(stepper.rods().velocities.begin(), stepper.rods().velocities.end(), Vector3d::Zero());
+  std::fill(stepper.rods().spins.begin(), stepper.rods().spins.end(), 0.0);
 }
 
 /// θ'' = -β (1 - s) θ from a clamp to an end without moment: where that has a solution, by a series
@@ -152,15 +161,10 @@ double growth_of_hinged(double moment) {
   auto pinned = hold(rods, {pin(0, Vector3d::Zero()), pin(rod_segments, Vector3d::UnitX())});
   Stepper stepper = disturbed_stepper(
       rods, std::move(twist), effects(std::move(pinned), std::make_unique<EndMoments>(moment)));
-  const auto creep = [&stepper] {
-    stepper.step(0.05);
-    std::fill(stepper.rods().velocities.begin(), stepper.rods().velocities.end(), Vector3d::Zero());
-    std::fill(stepper.rods().spins.begin(), stepper.rods().spins.end(), 0.0);
-  };
   const auto distance = [](const Rods& r) {
     return std::max(distance_along(r, 1), distance_along(r, 2));
   };
-  return growth(stepper, creep, distance, 300);
+  return growth(stepper, [&] { creep(stepper, 0.05); }, distance, 300);
 }
 
 // Between clamps: tan x = x for x = ML/2EI.
@@ -171,6 +175,29 @@ double critical_twist() {
 // Between hinges, w = (1 - cos kx) and (kx - sin kx) across the axis, k = M/EI, meet both ends at a
 // full turn.
 double critical_moment_of_hinged() { return 2.0 * M_PI; }
+
+double growth_of_curved(double weight, double twisting_stiffness, double curvature) {
+  RodSection section = unit_section;
+  section.twisting_stiffness = twisting_stiffness;
+  const Vector3d down = -Vector3d::UnitZ();
+  Rods rods;
+  rods.add(straight({0, 0, 0}, down, rod_segments), 0.01, section);
+  auto twist = std::make_unique<Twist>(rods);
+  set_natural_arc(rods, 0, curvature, Vector3d::UnitX());
+  auto clamped = hold(rods, {clamp(0, {Vector3d::Zero(), down, rods.directors[0]})});
+  Stepper stepper(rods,
+                  effects(std::make_unique<Gravity>(weight * down), std::make_unique<Stretch>(),
+                          std::make_unique<Bend>(), std::move(twist), std::move(clamped)),
+                  precise());
+  settle(stepper);
+  assert(distance_along(stepper.rods(), 1) < 1e-9);
+  for (int i = 1; i <= rod_segments; ++i) {
+    stepper.rods().velocities[i].y() = 1e-7 * i / rod_segments;
+  }
+  return growth(
+      stepper, [&] { creep(stepper, 0.2); }, [](const Rods& r) { return distance_along(r, 1); },
+      200);
+}
 
 EndOfRing end_of_ring(double angle, int steps) {
   std::vector<Vector3d> points;

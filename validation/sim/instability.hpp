@@ -2,10 +2,10 @@
 
 namespace fiber {
 
-/// Rods of 50 segments whose length, bending stiffness, twisting stiffness and mass are 1, near the
-/// loads at which they leave the shape they were in: below, they return from a small disturbance,
-/// above, they go ever farther. Growth is how many times farther they are than shortly after they
-/// were disturbed.
+/// Rods of 50 segments whose length, bending stiffness, twisting stiffness (unless another is
+/// named) and mass are 1, near the loads at which they leave the shape they were in: below, they
+/// return from a small disturbance, above, they go ever farther. Growth is how many times farther
+/// they are than shortly after they were disturbed.
 
 /// The growth of a column that is clamped at its foot and weighs this much.
 double growth_of_column(double weight);
@@ -22,6 +22,11 @@ double critical_twist();  ///< Greenhill's
 /// not stiff any more (Ziegler 1968).
 double growth_of_hinged(double moment);
 double critical_moment_of_hinged();  ///< Greenhill's
+
+/// The growth of a rod that is bent by nature and hangs from a clamp that points down, beside the
+/// plane of its arc.
+/// @param curvature [1/m]
+double growth_of_curved(double weight, double twisting_stiffness, double curvature);
 
 /// A rod bent to a full circle, with both ends clamped in the same place and twisted against each
 /// other. Nothing need disturb it: a clamp hands the moment over in the middle of half an edge, not
