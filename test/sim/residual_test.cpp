@@ -82,7 +82,7 @@ std::vector<double> residuals(const Rods& before, const Rods& after,
   found.find_derivatives(after);
   FrictionAnchors next;
   found.add_anchors(after, next);
-  next.sort();
+  next.sort(after.positions.size());
   std::vector<PackSystem> packs(after.count());
   std::vector<RodSystem> systems;
   systems.reserve(after.count());

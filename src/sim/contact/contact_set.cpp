@@ -86,16 +86,21 @@ void ContactSet::begin(const Rods& rods, const Friction* friction, const Frictio
   }
   if (friction != nullptr) {
     stick_length_ = friction->stick_length(step);
-    frictions_ = find_friction(rods);
+    add_friction(rods, [](std::uint32_t /*rod*/) { return true; });
   }
 }
 
-/// Friction by the normal forces at the current distances.
-std::vector<ContactSet::FrictionPoint> ContactSet::find_friction(const Rods& rods) const {
+/// Adds the friction by the normal forces at the current distances of the contacts for whose first
+/// rod is_wanted(rod) holds.
+template <class Predicate>
+void ContactSet::add_friction(const Rods& rods, const Predicate& is_wanted) {
   std::vector<std::vector<FrictionPoint>> by_chunk(chunk_count(distance_count()));
   for_each_chunk(distance_count(), [&](std::size_t index, std::size_t begin, std::size_t end) {
     std::vector<DistanceTerm> buffer;
     for (std::size_t i = begin; i < end; ++i) {
+      if (!is_wanted(rods_of(i).first)) {
+        continue;
+      }
       for_each_term(rods, i, buffer, [&](const ContactPoints& points, const DistanceTerm& term) {
         if (term.pressure > 0.0) {
           Vector3d reference = difference_of_points(origins_.state->positions, points);
@@ -106,16 +111,15 @@ std::vector<ContactSet::FrictionPoint> ContactSet::find_friction(const Rods& rod
           }
           const double max_force = friction_->coefficient() * term.pressure;
           reference -= origins_.anchors->slip_at(points, term.normal, max_force, stick_length_);
+          by_chunk[index].reserve(end - begin);
           by_chunk[index].push_back({points, term.normal, max_force, reference, levers});
         }
       });
     }
   });
-  std::vector<FrictionPoint> found;
   for (const std::vector<FrictionPoint>& points : by_chunk) {
-    found.insert(found.end(), points.begin(), points.end());
+    frictions_.insert(frictions_.end(), points.begin(), points.end());
   }
-  return found;
 }
 
 void ContactSet::update_friction(const Rods& rods, const std::vector<std::uint32_t>& islands,
@@ -123,13 +127,12 @@ void ContactSet::update_friction(const Rods& rods, const std::vector<std::uint32
   if (friction_ == nullptr || std::find(which.begin(), which.end(), true) == which.end()) {
     return;
   }
-  const auto is_asked_for = [&](const FrictionPoint& point) {
-    return which[islands[point.points.rod_a]];
-  };
-  frictions_.erase(std::remove_if(frictions_.begin(), frictions_.end(), is_asked_for),
-                   frictions_.end());
-  const std::vector<FrictionPoint> found = find_friction(rods);
-  std::copy_if(found.begin(), found.end(), std::back_inserter(frictions_), is_asked_for);
+  const auto is_wanted = [&](std::uint32_t rod) { return which[islands[rod]]; };
+  frictions_.erase(
+      std::remove_if(frictions_.begin(), frictions_.end(),
+                     [&](const FrictionPoint& point) { return is_wanted(point.points.rod_a); }),
+      frictions_.end());
+  add_friction(rods, is_wanted);
   evaluate_energies(rods, distance_count());
 }
 

@@ -128,7 +128,8 @@ class ContactSet {
   };
 
   void relax_initial_overlap(const Rods& rods);
-  std::vector<FrictionPoint> find_friction(const Rods& rods) const;
+  template <class Predicate>
+  void add_friction(const Rods& rods, const Predicate& is_wanted);
   double restitution_of(std::size_t contact) const;
   template <class Function>
   void for_each_term(const Rods& rods, std::size_t index, std::vector<DistanceTerm>& found,

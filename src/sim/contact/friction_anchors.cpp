@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <tuple>
+#include <numeric>
 
 namespace fiber {
 
@@ -11,13 +11,8 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// The two bodies of a contact, and the edge of the first.
-auto key_of(const ContactPoints& points, std::uint32_t edge) {
-  return std::tuple(points.rod_a, points.is_of_rods(), points.rod_b, edge);
-}
-
-bool is_before(const FrictionAnchors::Anchor& a, const FrictionAnchors::Anchor& b) {
-  return key_of(a.points, a.points.edge_a) < key_of(b.points, b.points.edge_a);
+bool is_between_same_bodies(const ContactPoints& a, const ContactPoints& b) {
+  return a.rod_a == b.rod_a && a.rod_b == b.rod_b && a.is_of_rods() == b.is_of_rods();
 }
 
 /// The distance of two points of a rod [edges].
@@ -44,16 +39,30 @@ double factor_for(double part, double slip) {
 
 }  // namespace
 
-void FrictionAnchors::sort() {
-  std::stable_sort(anchors_.begin(), anchors_.end(), is_before);
+void FrictionAnchors::sort(std::size_t edges) {
   energy_ = 0.0;
+  if (anchors_.empty()) {
+    return;
+  }
+  offsets_.assign(edges + 1, 0);
   for (const Anchor& anchor : anchors_) {
-    energy_ += anchor.energy;
+    ++offsets_[anchor.points.edge_a];
+  }
+  std::partial_sum(offsets_.begin(), offsets_.end(), offsets_.begin());
+  by_edge_.resize(anchors_.size());
+  for (std::size_t i = anchors_.size(); i-- > 0;) {
+    by_edge_[--offsets_[anchors_[i].points.edge_a]] = static_cast<std::uint32_t>(i);
+  }
+  for (const std::uint32_t i : by_edge_) {
+    energy_ += anchors_[i].energy;
   }
 }
 
 Vector3d FrictionAnchors::slip_at(const ContactPoints& points, const Vector3d& normal,
                                   double max_force, double stick_length) const {
+  if (anchors_.empty()) {
+    return Vector3d::Zero();
+  }
   const Anchor* const anchor = nearest(points, normal);
   if (anchor == nullptr) {
     return Vector3d::Zero();
@@ -67,23 +76,24 @@ Vector3d FrictionAnchors::slip_at(const ContactPoints& points, const Vector3d& n
 /// Null where none lies near enough.
 const FrictionAnchors::Anchor* FrictionAnchors::nearest(const ContactPoints& points,
                                                         const Vector3d& normal) const {
-  Anchor first{points, normal, Vector3d::Zero(), 0.0};
-  first.points.edge_a = points.edge_a > 0 ? points.edge_a - 1 : 0;
   const Anchor* found = nullptr;
   double nearest = std::numeric_limits<double>::infinity();
-  const auto last = key_of(points, points.edge_a + 1);
-  for (auto anchor = std::lower_bound(anchors_.begin(), anchors_.end(), first, is_before);
-       anchor != anchors_.end() && key_of(anchor->points, anchor->points.edge_a) <= last;
-       ++anchor) {
-    const ContactPoints& other = anchor->points;
+  const std::size_t last = std::min<std::size_t>(points.edge_a + 2, offsets_.size() - 1);
+  for (std::size_t i = offsets_[points.edge_a - std::min(points.edge_a, 1U)]; i < offsets_[last];
+       ++i) {
+    const Anchor& anchor = anchors_[by_edge_[i]];
+    const ContactPoints& other = anchor.points;
+    if (!is_between_same_bodies(points, other)) {
+      continue;
+    }
     const double on_a = edges_between(points.edge_a, points.s, other.edge_a, other.s);
     const double on_b =
         points.is_of_rods() ? edges_between(points.edge_b, points.t, other.edge_b, other.t) : 0.0;
     // Where a node touches two faces, each goes on with its own.
-    const double turn = 1.0 - normal.dot(anchor->normal);
+    const double turn = 1.0 - normal.dot(anchor.normal);
     if (on_a <= 1.0 && on_b <= 1.0 && on_a + on_b + turn < nearest) {
       nearest = on_a + on_b + turn;
-      found = &*anchor;
+      found = &anchor;
     }
   }
   return found;

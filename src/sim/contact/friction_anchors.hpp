@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "fiber_proximity/sim/contacts.hpp"
@@ -24,7 +25,8 @@ class FrictionAnchors {
   void add(const Anchor& anchor) { anchors_.push_back(anchor); }
 
   /// To be called after the last add().
-  void sort();
+  /// @param edges number of them, as Rods counts edges
+  void sort(std::size_t edges);
 
   /// The energy of all [J].
   double energy() const { return energy_; }
@@ -43,6 +45,9 @@ class FrictionAnchors {
   const Anchor* nearest(const ContactPoints& points, const Eigen::Vector3d& normal) const;
 
   std::vector<Anchor> anchors_;
+  std::vector<std::uint32_t> by_edge_;  // anchors, in the order of their edges of rod a
+  std::vector<std::uint32_t>
+      offsets_;  // by edge: where its anchors begin in by_edge_; then the end
   double energy_ = 0.0;
 };
 

@@ -236,7 +236,7 @@ void StageSolver::keep_anchors(const Rods& rods) {
   for (const Group& group : groups_) {
     group.contacts.add_anchors(rods, anchors_);
   }
-  anchors_.sort();
+  anchors_.sort(rods.positions.size());
 }
 
 bool StageSolver::has_impacts() const {
