@@ -37,7 +37,7 @@ long_tests=(
   'AtSpeeds/Obstacle.ThinPlates*/2' 'ExtremeScenesTest.AMillionFibers*' 'NaturalCurvature.AClamp*'
   'Capstan.*' 'Springs/*' 'Spring.*' 'Instability.*' 'Conservation.*' 'Tunnelling.*' 'Loads.APile*'
   'MostIterations/PulledKnot.*' 'Robustness.StiffAndFolded*' 'Regression.AStiffCable*' 'Hair.*'
-  'Ropes/CapstanOf.*' 'Resting.WhatFrictionHolds*' 'Scene.HasThePapersCounts' 'SelfContact.LongCables*' 'Skins/RunTreeLimits.HoldForAFiber*/with_a_skin'
+  'Ropes/CapstanOf.*' 'Resting.*DoesNotCreep' 'Scene.HasThePapersCounts' 'SelfContact.LongCables*' 'Skins/RunTreeLimits.HoldForAFiber*/with_a_skin'
   'Engines/DeadlineTest.*/brute_force' 'FiberQuery.EveryEngine*'
 )
 GTEST_FILTER="-$(IFS=:; echo "${long_tests[*]}")" run_tests --parallel "$(nproc)"

@@ -189,6 +189,47 @@ TEST(Resting, WhatFrictionHoldsDoesNotCreep) {
   }
 }
 
+/// A rope that hangs over a hook, one of its ends lower than the other: friction carries the
+/// difference. Its ends swing out first: implicit Euler takes the sooner from that the longer its
+/// steps.
+TEST(Resting, ARopeOverAHookDoesNotCreep) {
+  constexpr double hook_radius = 0.03;
+  constexpr double axis_radius = hook_radius + 1.04 * resting_radius;
+  constexpr int edges_over = 8;
+  constexpr int shorter = 24;
+  const auto rope_over = [&](int longer) {
+    std::vector<Vector3d> points;
+    const double turn = M_PI / edges_over;
+    const double edge = 2.0 * axis_radius * std::tan(0.5 * turn);
+    for (int i = shorter; i > 0; --i) {
+      points.emplace_back(-axis_radius, 0.0, -edge * (i - 0.5));
+    }
+    for (int i = 0; i < edges_over; ++i) {
+      const double angle = (i + 0.5) * turn;
+      const double corner = axis_radius / std::cos(0.5 * turn);
+      points.emplace_back(-corner * std::cos(angle), 0.0, corner * std::sin(angle));
+    }
+    for (int i = 1; i <= shorter + longer; ++i) {
+      points.emplace_back(axis_radius, 0.0, -edge * (i - 0.5));
+    }
+    return points;
+  };
+  const Eigen::Isometry3d level(Eigen::AngleAxisd(0.5 * M_PI, Vector3d::UnitX()));
+  const auto simulate = [&](int longer) {
+    Rods rods;
+    rods.add(rope_over(longer), resting_radius,
+             solid_round_section(material_preset("rope"), resting_radius));
+    Stepper stepper(rods, elastic(standard_gravity), {},
+                    contacts_with(environment_of(CylinderShape{hook_radius, 1.0}, level), 0.3));
+    while (stepper.time() < 90.0) {
+      stepper.step(1.0 / 60.0);
+    }
+    return farthest_in(stepper, 100.0, 60.0, resting_step);
+  };
+  EXPECT_LT(simulate(8), 1e-6);
+  EXPECT_GT(simulate(60), 1.0) << "slides off";
+}
+
 TEST(FreeFlight, IsTheSameWithContactEffects) {
   // Thin rods and long steps: from one to the next they fall further than they are thick.
   constexpr double thin = 2e-4;
