@@ -87,11 +87,19 @@ Measurement measure_first(const RealTimeScene& scene) {
   }
 }
 
-/// Measures the finest resolution of about this work with which the scene can be made.
+/// Measures the finest resolution of about this work with which the scene can be made; where all of
+/// these are refused, the next one beyond.
 /// @returns none if there is none that is nearer to it than the earlier one
 std::optional<Measurement> measure_near(const RealTimeScene& scene, double work, double budget,
                                         const Measurement& earlier) {
-  for (const double detour : {1.0, 0.9, 1.1, 0.8, 1.2, 0.7, 1.5, 0.5, 2.0, 0.3, 3.0}) {
+  std::vector<double> detours{1.0, 0.9, 1.1, 0.8, 1.2, 0.7, 1.5, 0.5, 2.0, 0.3};
+  constexpr double growth = 1.5;
+  constexpr double doubt = 4.0;  // of what is extrapolated from an earlier measurement
+  const double expected = earlier.work * aimed_share / earlier.share;
+  for (double detour = 3.0; detour * work <= doubt * expected; detour *= growth) {
+    detours.push_back(detour);
+  }
+  for (const double detour : detours) {
     constexpr double rounding = 1e-9;
     const Resolution resolution = finest_within(scene, work * detour * (1.0 + rounding));
     const double found = scene.work(resolution);

@@ -99,6 +99,21 @@ TEST_F(SimSceneTest, WhatCannotBeHadInRealTimeSaysSo) {
   EXPECT_EQ(omissions(make_sim_scene(scene, 1)).front(), scene.real_time_warning);
 }
 
+TEST_F(SimSceneTest, RealTimeLooksBeyondWhatBeginsInAnObstacle) {
+  // A wire between clips: coarse polygons pass beside them, finer ones begin in them.
+  constexpr std::uint32_t first_free = 40;
+  const FrameTimer clips = [](const SimDescription& scene, double budget) {
+    const std::uint32_t segments = scene.rods.node_count(0) - 1;
+    if (segments > 5 && segments < first_free) {
+      throw std::invalid_argument("overlap");
+    }
+    return takes(1e-6)(scene, budget);
+  };
+  const SimDescription scene = describe(open_text(line, "real_time: true\n"), clips);
+  EXPECT_GE(scene.rods.node_count(0) - 1, first_free);
+  EXPECT_NEAR(share(scene, takes(1e-6)), 0.5, 0.1);
+}
+
 TEST_F(SimSceneTest, RealTimeOfAnOverlapInEachResolutionIsThatError) {
   const FrameTimer refuses = [](const SimDescription&, double) -> std::vector<double> {
     throw std::invalid_argument("overlap");
