@@ -16,8 +16,11 @@ constexpr double no_error = 1e-9;
 /// Another setting is clearly faster below this part of the time.
 constexpr double clearly_faster = 0.95;
 
-/// The reference is taken if it takes at most so many times as long as the fastest.
-constexpr double max_reference_ratio = 1.03;
+/// What is more accurate is taken if it takes at most so many times as long as the fastest.
+constexpr double max_ratio_to_fastest = 1.03;
+
+/// A tolerance that is as large as the noise states a rounding more.
+constexpr double slightly_more = 1.001;
 
 /// [m] By how much an answer may be off.
 double inaccuracy(const SettingOutcome& outcome) {
@@ -40,6 +43,28 @@ bool is_accurate_enough(const SettingOutcome& outcome, double limit) {
   return outcome.setting.kind != SettingKind::DEADLINE && outcome.complete_percent == 100.0 &&
          outcome.missed_percent == 0.0 && outcome.invented_percent == 0.0 &&
          keeps_bounds(outcome) && inaccuracy(outcome) <= limit;
+}
+
+/// Of those that are accurate enough and nearly as fast as the fastest: the reference, or else the
+/// most accurate.
+const SettingOutcome& preferred(const std::vector<SettingOutcome>& outcomes,
+                                const SettingOutcome& reference, double limit) {
+  double fastest_ms = reference.p50_ms;
+  for (const SettingOutcome& outcome : outcomes) {
+    if (is_accurate_enough(outcome, limit)) {
+      fastest_ms = std::min(fastest_ms, outcome.p50_ms);
+    }
+  }
+  const double limit_ms = max_ratio_to_fastest * fastest_ms;
+  const SettingOutcome* taken = &reference;
+  for (const SettingOutcome& outcome : outcomes) {
+    const bool is_better = taken->p50_ms > limit_ms ||
+                           (taken != &reference && inaccuracy(outcome) < inaccuracy(*taken));
+    if (is_accurate_enough(outcome, limit) && outcome.p50_ms <= limit_ms && is_better) {
+      taken = &outcome;
+    }
+  }
+  return *taken;
 }
 
 std::string percent(double part) { return rounded_text(std::abs(part)) + " %"; }
@@ -66,12 +91,14 @@ std::string with_article(const AnswerSetting& setting) {
   }
 }
 
-/// The fastest one of a kind, but for the one that is taken; nullptr if there is none.
-const SettingOutcome* fastest_of(SettingKind kind, const std::vector<SettingOutcome>& outcomes,
+/// The fastest one of a kind whose error is at most this, but for the one that is taken; nullptr if
+/// there is none.
+const SettingOutcome* fastest_of(SettingKind kind, double max_error,
+                                 const std::vector<SettingOutcome>& outcomes,
                                  const SettingOutcome& taken) {
   const SettingOutcome* fastest = nullptr;
   for (const SettingOutcome& outcome : outcomes) {
-    if (outcome.setting.kind == kind && &outcome != &taken &&
+    if (outcome.setting.kind == kind && &outcome != &taken && inaccuracy(outcome) <= max_error &&
         (fastest == nullptr || outcome.p50_ms < fastest->p50_ms)) {
       fastest = &outcome;
     }
@@ -93,17 +120,27 @@ std::string time_clause(const SettingOutcome& taken, const SettingOutcome& refer
   return text;
 }
 
-/// What the others would save or cost.
-std::string others_clause(const std::vector<SettingOutcome>& outcomes,
-                          const SettingOutcome& taken) {
+/// What the others would save or cost: of tolerances one that the noise hides, if there is one.
+std::string others_clause(const std::vector<SettingOutcome>& outcomes, const SettingOutcome& taken,
+                          std::optional<double> noise) {
+  constexpr double any = std::numeric_limits<double>::infinity();
   std::string text;
   const auto add = [&](const std::string& clause) { text += (text.empty() ? "" : ", ") + clause; };
-  for (const SettingKind kind : {SettingKind::TOLERANCE, SettingKind::KERNEL}) {
-    if (const SettingOutcome* other = fastest_of(kind, outcomes, taken)) {
+  const SettingOutcome* tolerance =
+      fastest_of(SettingKind::TOLERANCE, slightly_more * noise.value_or(any), outcomes, taken);
+  if (tolerance == nullptr) {
+    tolerance = fastest_of(SettingKind::TOLERANCE, any, outcomes, taken);
+  }
+  for (const SettingOutcome* other :
+       {tolerance, fastest_of(SettingKind::KERNEL, any, outcomes, taken)}) {
+    if (other != nullptr) {
       add(with_article(other->setting) + ' ' + beside(*other, taken));
     }
   }
-  if (const SettingOutcome* deadline = fastest_of(SettingKind::DEADLINE, outcomes, taken)) {
+  const auto deadline = std::find_if(outcomes.begin(), outcomes.end(), [](const auto& outcome) {
+    return outcome.setting.kind == SettingKind::DEADLINE;
+  });
+  if (deadline != outcomes.end()) {
     add(with_article(deadline->setting) + " leaves " + percent(100.0 - deadline->complete_percent) +
         " of the answers incomplete");
   }
@@ -142,7 +179,7 @@ std::string larger_than(double noise, const std::vector<SettingOutcome>& outcome
     bool has_smaller = false;
     for (const SettingOutcome& outcome : outcomes) {
       if (outcome.setting.kind == kind) {
-        const bool is_larger = std::max(outcome.error, outcome.doubt) > noise;
+        const bool is_larger = inaccuracy(outcome) > slightly_more * noise;
         (is_larger ? has_larger : has_smaller) = true;
         const double length =
             std::max(outcome.setting.options.tolerance, outcome.setting.chord_error);
@@ -199,20 +236,12 @@ Recommendation recommend(const std::vector<SettingOutcome>& outcomes, std::optio
                          std::optional<double> frame_time) {
   const SettingOutcome& reference = reference_of(outcomes);
   const double limit = std::max(inaccuracy(reference), 0.5 * noise.value_or(0.0));
-  const SettingOutcome* taken = &reference;
-  for (const SettingOutcome& outcome : outcomes) {
-    if (is_accurate_enough(outcome, limit) && outcome.p50_ms < taken->p50_ms) {
-      taken = &outcome;
-    }
-  }
-  if (reference.p50_ms <= max_reference_ratio * taken->p50_ms) {
-    taken = &reference;
-  }
+  const SettingOutcome& taken = preferred(outcomes, reference, limit);
   std::string sentence =
-      "take " + with_article(taken->setting) + ": " + time_clause(*taken, reference, frame_time);
-  const std::string others = others_clause(outcomes, *taken);
+      "take " + with_article(taken.setting) + ": " + time_clause(taken, reference, frame_time);
+  const std::string others = others_clause(outcomes, taken, noise);
   sentence += (others.empty() ? "" : "; " + others) + "; " + noise_clause(outcomes, noise);
-  return {static_cast<std::size_t>(taken - outcomes.data()), sentence};
+  return {static_cast<std::size_t>(&taken - outcomes.data()), sentence};
 }
 
 }  // namespace fiber
