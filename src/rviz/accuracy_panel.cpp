@@ -41,6 +41,7 @@ AccuracyPanel::AccuracyPanel(QWidget* parent)
   name_->setObjectName("node");
   answer_->setObjectName("answer");
   status_->setObjectName("status");
+  plot_->setObjectName("plot");
   answer_->setWordWrap(true);
   status_->setWordWrap(true);
   auto* layout = new QVBoxLayout(this);
@@ -109,7 +110,7 @@ void AccuracyPanel::subscribe() {
         current_ = *values;
         form_->show_values(current_);
       });
-  log_ = handle_.subscribe("/rosout_agg", queue, &AccuracyPanel::process_log, this);
+  log_ = handle_.subscribe("/rosout", queue, &AccuracyPanel::process_log, this);
   say("waiting for node " + node_, false);
 }
 
