@@ -39,6 +39,7 @@ add_library(fiber_proximity_ros SHARED
   src/ros/inputs/stamp_matcher.cpp
   src/ros/inputs/synchronizer.cpp
   src/ros/inputs/transform_queue.cpp
+  src/ros/outputs/answer_text.cpp
   src/ros/outputs/comparison_output.cpp
   src/ros/outputs/contact_output.cpp
   src/ros/outputs/crossings_output.cpp

@@ -1,9 +1,7 @@
 // The parameters that change while the node runs.
-#include <dynamic_reconfigure/Reconfigure.h>
-
 #include <limits>
 
-#include "fiber_proximity/ProximityConfig.h"
+#include "test/ros/live_settings.hpp"
 #include "test/ros/messages.hpp"
 #include "test/ros/node_test.hpp"
 
@@ -32,14 +30,8 @@ class ReconfigureTest : public node_test::NodeTest {
     return message;
   }
 
-  /// Asks for these values and returns those in use then.
   static ProximityConfig set(const ProximityConfig& config) {
-    dynamic_reconfigure::Reconfigure call;
-    config.__toMessage__(call.request.config);
-    EXPECT_TRUE(node_test::call_service("/proximity/set_parameters", call));
-    ProximityConfig in_use;
-    EXPECT_TRUE(in_use.__fromMessage__(call.response.config));
-    return in_use;
+    return node_test::set_parameters(config);
   }
 
   /// The answer about fibres sent now.
