@@ -51,7 +51,9 @@ add_library(fiber_proximity_ros SHARED
   src/ros/outputs/node_reports.cpp
   src/ros/outputs/tube_mesh.cpp
   src/ros/player/fiber_player.cpp
+  src/ros/server/accuracy_preset.cpp
   src/ros/server/answer_pipeline.cpp
+  src/ros/server/asked_config.cpp
   src/ros/server/check_service.cpp
   src/ros/server/proximity_server.cpp
   src/ros/server/query_options.cpp
