@@ -5,6 +5,7 @@ fiber_proximity_test_headers(graph_test_headers cold fiber_proximity_ros ${ros_h
 
 fiber_proximity_gtest(tube_mesh_test ros/tube_mesh_test.cpp LIBRARIES fiber_proximity_ros)
 fiber_proximity_gtest(markers_test
+  ros/answer_text_test.cpp
   ros/crossing_markers_test.cpp
   ros/environment_markers_test.cpp
   ros/label_place_test.cpp
@@ -186,6 +187,15 @@ foreach(name input_budget missing_points reversed stamps synchronize)
   add_rostest(ros/${name}.test DEPENDENCIES input_node_test proximity_node)
 endforeach()
 
+add_rostest_gtest(answer_text_node_test
+  ros/answer_text.test
+  ros/answer_text_node_test.cpp
+  ros/main.cpp
+)
+target_link_libraries(answer_text_node_test
+  fiber_proximity_ros fiber_proximity_options test_support)
+add_dependencies(answer_text_node_test proximity_node)
+
 add_rostest_gtest(environment_node_test
   ros/environment_inputs.test
   ros/environment_clouds_test.cpp
@@ -283,4 +293,4 @@ roslaunch_add_file_check(../launch/bag.launch bag:=/tmp/any.bag frame:=world
   config:=${PROJECT_SOURCE_DIR}/config/trackdlo.yaml)
 
 fiber_proximity_graph_tests(node_test fiber_player_test cable_sim_test input_node_test
-  environment_node_test environment_services_test)
+  answer_text_node_test environment_node_test environment_services_test)
