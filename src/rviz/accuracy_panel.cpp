@@ -116,6 +116,7 @@ void AccuracyPanel::subscribe() {
 
 void AccuracyPanel::process(const fiber_proximity::StatisticsConstPtr& answer) {
   history_.add(now(), *answer);
+  answer_->setText(QString::fromStdString(answer->summary));
 }
 
 /// What the node says of its settings is said here in its own words.
