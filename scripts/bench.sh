@@ -12,7 +12,7 @@
 #     python     what calls from Python cost beside C++; the same questions asked of numpy, scipy's k-d tree and
 #                Bullet in Python
 #     --quick    small scenes: minutes at most
-#     --redraw   measure nothing: figures and tables from the CSV in DIR
+#     --redraw   measure nothing: figures and tables from the CSV in DIR (not of continuous and simulation)
 #     --verbose  all that installing and building write
 #     --out DIR  where CSV and SVG go (default: bench/EXPERIMENT in the build's folder, -quick with --quick);
 #                a run that was stopped goes on from what is there

@@ -81,5 +81,5 @@ def draw_skins(scenes, path):
     axis.set(xlabel="skin [mean segment lengths]", ylabel="time per frame, that without skin = 1",
              yscale="log",
              title=f"{first['motion']:g} segment lengths per frame, {first['threads']} thread(s)")
-    axis.legend()
+    axis.legend(loc="center left", bbox_to_anchor=(1.01, 0.5))
     save(figure, path)
