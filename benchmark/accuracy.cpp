@@ -109,11 +109,11 @@ class Accuracy {
                         "setting",
                         {"detect [ms]", "detect_ms"},
                         {"p99 [ms]", "detect_p99_ms"},
-                        "late",
+                        {"late [% of the deadline]", "late", 100.0},
                         "pairs",
                         "missed",
                         "false",
-                        "found",
+                        {"found [%]", "found", 100.0},
                         {"error [m]", "error"},
                         {"bound [m]", "bound"}},
                        request_.json);

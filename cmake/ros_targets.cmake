@@ -39,6 +39,7 @@ add_library(fiber_proximity_ros SHARED
   src/ros/inputs/stamp_matcher.cpp
   src/ros/inputs/synchronizer.cpp
   src/ros/inputs/transform_queue.cpp
+  src/ros/outputs/answer_text.cpp
   src/ros/outputs/comparison_output.cpp
   src/ros/outputs/contact_output.cpp
   src/ros/outputs/crossings_output.cpp
@@ -50,7 +51,9 @@ add_library(fiber_proximity_ros SHARED
   src/ros/outputs/node_reports.cpp
   src/ros/outputs/tube_mesh.cpp
   src/ros/player/fiber_player.cpp
+  src/ros/server/accuracy_preset.cpp
   src/ros/server/answer_pipeline.cpp
+  src/ros/server/asked_config.cpp
   src/ros/server/check_service.cpp
   src/ros/server/proximity_server.cpp
   src/ros/server/query_options.cpp

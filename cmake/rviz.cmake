@@ -2,6 +2,7 @@
 
 # What it draws, free of rviz: tested without.
 add_library(fiber_proximity_mesh STATIC
+  src/rviz/answer_history.cpp
   src/rviz/fiber_colors.cpp
   src/rviz/fiber_detail.cpp
   src/rviz/fiber_mesh.cpp
@@ -20,11 +21,14 @@ if(NOT rviz_FOUND OR NOT Qt5_FOUND)
 endif()
 
 add_library(fiber_proximity_rviz SHARED
+  src/rviz/accuracy_panel.cpp
+  src/rviz/answer_plot.cpp
   src/rviz/display_properties.cpp
   src/rviz/fiber_array_display.cpp
   src/rviz/fiber_materials.cpp
   src/rviz/fiber_renderable.cpp
   src/rviz/legend_display.cpp
+  src/rviz/parameter_form.cpp
   src/rviz/text_overlay.cpp
   src/rviz/view_fit.cpp
 )

@@ -180,8 +180,6 @@ TEST_F(BadInputTest, ABadParameterIsAClearErrorAndExitCode2) {
         << refusal.output;
     ros::param::del("/refused");
   }
-  expect_exit("_accuracy:=deadline",
-              "parameter /refused/accuracy is 'deadline' and deadline is 0 s, it must be above 0");
   expect_exit("_engine:=nonsense", "unknown engine 'nonsense', known are: run_tree, AL, ");
   expect_exit("_engine:=DL-7",
               "unknown engine 'DL-7' (k-DOP with k = 7: k must be even, from 6 to ");

@@ -1,9 +1,7 @@
 // The parameters that change while the node runs.
-#include <dynamic_reconfigure/Reconfigure.h>
-
 #include <limits>
 
-#include "fiber_proximity/ProximityConfig.h"
+#include "test/ros/live_settings.hpp"
 #include "test/ros/messages.hpp"
 #include "test/ros/node_test.hpp"
 
@@ -32,14 +30,8 @@ class ReconfigureTest : public node_test::NodeTest {
     return message;
   }
 
-  /// Asks for these values and returns those in use then.
   static ProximityConfig set(const ProximityConfig& config) {
-    dynamic_reconfigure::Reconfigure call;
-    config.__toMessage__(call.request.config);
-    EXPECT_TRUE(node_test::call_service("/proximity/set_parameters", call));
-    ProximityConfig in_use;
-    EXPECT_TRUE(in_use.__fromMessage__(call.response.config));
-    return in_use;
+    return node_test::set_parameters(config);
   }
 
   /// The answer about fibres sent now.
@@ -135,12 +127,69 @@ TEST_F(ReconfigureTest, AccuracyCanBeChosenWhileItRuns) {
   EXPECT_EQ(now.contacts.size(), 9U);
 }
 
+/// Sets one parameter alone, as `dynparam set` does.
+void set_one(const std::string& name, const std::string& value) {
+  dynamic_reconfigure::Reconfigure call;
+  call.request.config.strs.resize(1);
+  call.request.config.strs[0].name = name;
+  call.request.config.strs[0].value = value;
+  ASSERT_TRUE(node_test::call_service("/proximity/set_parameters", call));
+}
+void set_one(const std::string& name, double value) {
+  dynamic_reconfigure::Reconfigure call;
+  call.request.config.doubles.resize(1);
+  call.request.config.doubles[0].name = name;
+  call.request.config.doubles[0].value = value;
+  ASSERT_TRUE(node_test::call_service("/proximity/set_parameters", call));
+}
+
+TEST_F(ReconfigureTest, WhatAccuracyOverridesIsToldOnceInAnyOrder) {
+  const std::string accuracy = "parameter /proximity/accuracy is ";
+  set(ProximityConfig::__getDefault__());
+  set_one("accuracy", "exact");
+  set_one("deadline", 0.002);
+  expect_log(accuracy + "exact, which overrides deadline 0.002; accuracy custom uses them");
+  set_one("tolerance", 0.125);
+  expect_log(accuracy +
+             "exact, which overrides tolerance 0.125, deadline 0.002; accuracy custom uses them");
+  set_one("kernel", "robust");  // the default, and yet somebody wants it
+  expect_log(accuracy + "exact, which overrides kernel robust, tolerance 0.125, deadline 0.002");
+  set_one("margin", 0.1);
+  set_one("margin", 0.2);
+  EXPECT_EQ(answer().kernel, "exact");
+  EXPECT_EQ(logs_of(accuracy + "exact, which overrides kernel robust").size(), 1U);
+  EXPECT_EQ(logs_of(accuracy + "exact").size(), 3U);
+
+  set(ProximityConfig::__getDefault__());
+  set_one("relative_tolerance", 0.25);
+  set_one("kernel", "exact");
+  set_one("accuracy", "robust");
+  expect_log(accuracy + "robust, which overrides kernel exact, relative_tolerance 0.25");
+}
+
+TEST_F(ReconfigureTest, TheAccuracyOfADeadlineWaitsForOne) {
+  const std::string waits =
+      "parameter /proximity/accuracy is deadline, which has no effect until deadline is above 0 s";
+  ProximityConfig config = ProximityConfig::__getDefault__();
+  config.tolerance = 0.125;
+  set(config);
+  set_one("accuracy", "deadline");
+  expect_log(waits);
+  EXPECT_EQ(answer().tolerance, 0.125);
+  set_one("deadline", 1000.0);
+  expect_log(
+      "parameter /proximity/accuracy is deadline, which overrides tolerance 0.125; accuracy "
+      "custom uses them");
+  EXPECT_EQ(answer().tolerance, 0.0);
+  set_one("deadline", 0.0);
+  EXPECT_TRUE(node_test::wait_for([&] { return logs_of(waits).size() == 2U; })) << "again";
+  EXPECT_EQ(answer().tolerance, 0.125);
+  set(ProximityConfig::__getDefault__());
+}
+
 TEST_F(ReconfigureTest, AnAccuracyThatCannotBeIsAnError) {
   set(ProximityConfig::__getDefault__());
   ProximityConfig bad = ProximityConfig::__getDefault__();
-  bad.accuracy = "deadline";
-  EXPECT_EQ(set(bad).accuracy, "custom");
-  expect_log("accuracy is 'deadline' and deadline is 0 s, it must be above 0");
   bad.accuracy = "sloppy";
   EXPECT_EQ(set(bad).accuracy, "custom");
   expect_log(

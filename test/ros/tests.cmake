@@ -5,6 +5,7 @@ fiber_proximity_test_headers(graph_test_headers cold fiber_proximity_ros ${ros_h
 
 fiber_proximity_gtest(tube_mesh_test ros/tube_mesh_test.cpp LIBRARIES fiber_proximity_ros)
 fiber_proximity_gtest(markers_test
+  ros/answer_text_test.cpp
   ros/crossing_markers_test.cpp
   ros/environment_markers_test.cpp
   ros/label_place_test.cpp
@@ -77,6 +78,7 @@ fiber_proximity_gtest(input_options_test
   LIBRARIES fiber_proximity_ros
 )
 fiber_proximity_gtest(fiber_mesh_test
+  rviz/answer_history_test.cpp
   rviz/contact_pairing_test.cpp
   rviz/fiber_chunks_test.cpp
   rviz/fiber_colors_test.cpp
@@ -185,6 +187,15 @@ foreach(name input_budget missing_points reversed stamps synchronize)
   add_rostest(ros/${name}.test DEPENDENCIES input_node_test proximity_node)
 endforeach()
 
+add_rostest_gtest(answer_text_node_test
+  ros/answer_text.test
+  ros/answer_text_node_test.cpp
+  ros/main.cpp
+)
+target_link_libraries(answer_text_node_test
+  fiber_proximity_ros fiber_proximity_options test_support)
+add_dependencies(answer_text_node_test proximity_node)
+
 add_rostest_gtest(environment_node_test
   ros/environment_inputs.test
   ros/environment_clouds_test.cpp
@@ -228,20 +239,17 @@ if(TARGET fiber_proximity_moveit)
 endif()
 
 if(TARGET fiber_proximity_rviz)
-  add_executable(display_test EXCLUDE_FROM_ALL rviz/display_test.cpp)
-  target_link_libraries(display_test
-    fiber_proximity_rviz fiber_proximity_options ${GTEST_LIBRARIES})
-  fiber_proximity_compile_cold(display_test)
-  add_dependencies(tests display_test)
-  add_rostest(rviz/display.test DEPENDENCIES display_test)
-  add_executable(tracker_view_test EXCLUDE_FROM_ALL rviz/tracker_view_test.cpp)
+  foreach(name accuracy_panel display tracker_view)
+    add_executable(${name}_test EXCLUDE_FROM_ALL rviz/${name}_test.cpp)
+    target_link_libraries(${name}_test
+      fiber_proximity_rviz fiber_proximity_options ${GTEST_LIBRARIES})
+    fiber_proximity_compile_cold(${name}_test)
+    add_dependencies(tests ${name}_test)
+    add_rostest(rviz/${name}.test DEPENDENCIES ${name}_test)
+  endforeach()
+  add_dependencies(accuracy_panel_test proximity_node)
   target_compile_definitions(tracker_view_test PRIVATE
     TRACKER_VIEW="${PROJECT_SOURCE_DIR}/rviz/tracker.rviz")
-  target_link_libraries(tracker_view_test
-    fiber_proximity_rviz fiber_proximity_options ${GTEST_LIBRARIES})
-  fiber_proximity_compile_cold(tracker_view_test)
-  add_dependencies(tests tracker_view_test)
-  add_rostest(rviz/tracker_view.test DEPENDENCIES tracker_view_test)
 endif()
 
 if(TARGET fiber_proximity_python)
@@ -285,4 +293,4 @@ roslaunch_add_file_check(../launch/bag.launch bag:=/tmp/any.bag frame:=world
   config:=${PROJECT_SOURCE_DIR}/config/trackdlo.yaml)
 
 fiber_proximity_graph_tests(node_test fiber_player_test cable_sim_test input_node_test
-  environment_node_test environment_services_test)
+  answer_text_node_test environment_node_test environment_services_test)

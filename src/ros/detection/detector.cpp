@@ -27,6 +27,7 @@ void Detection::detect(const fiber::QueryOptions& options, bool wants_minimum, c
   // The first contact found need not be the closest.
   minimum_ = options.type == fiber::QueryType::FIRST ? nullptr : contacts_.closest();
   minimum_lower_ = contacts_.minimum_lower();
+  minimum_complete_ = contacts_.complete;
   contact_time_ = stopwatch.seconds();
   if (minimum_ == nullptr && wants_minimum) {
     fiber::QueryOptions closest = options;
@@ -37,6 +38,7 @@ void Detection::detect(const fiber::QueryOptions& options, bool wants_minimum, c
     complete_ = complete_ && closest_.complete;
     limit_reached_ = limit_reached_ || closest_.limit_reached;
     minimum_ = closest_.closest();
+    minimum_complete_ = closest_.complete;
     minimum_lower_ = closest_.minimum_lower();
     counts_ += closest_.counts;
   }
@@ -88,7 +90,7 @@ std::string Detection::cut_off(const fiber::QueryOptions& options) const {
 double Detection::contact_error() const {
   double error = 0.0;
   for (const fiber::Contact& contact : contacts_.contacts) {
-    error = std::max(error, contact.upper - contact.distance);
+    error = std::max({error, contact.upper - contact.distance, contact.distance - contact.lower});
   }
   return error;
 }

@@ -28,7 +28,11 @@ class Detection {
   // These are about the last detect():
   const fiber::QueryResult& contacts() const { return contacts_; }
   const fiber::Contact* minimum() const { return minimum_; }  ///< nullptr if there is no pair
+  bool has_failed() const { return !failure_.empty(); }       ///< nothing could be asked
   bool is_complete() const { return complete_; }  ///< no deadline or limit came before its end
+  bool are_contacts_complete() const { return !has_failed() && contacts_.complete; }
+  /// Whether no pair can be closer than minimum() for want of looking.
+  bool is_minimum_complete() const { return !has_failed() && minimum_complete_; }
   bool is_limit_reached() const { return limit_reached_; }
   /// Whether these options asked for all contacts, and there are no others.
   bool has_all_of(const fiber::QueryOptions& options) const {
@@ -53,6 +57,7 @@ class Detection {
   fiber::QueryResult closest_;
   const fiber::Contact* minimum_ = nullptr;
   bool complete_ = true;
+  bool minimum_complete_ = true;
   bool limit_reached_ = false;
   std::string failure_;
   double minimum_lower_ = 0.0;

@@ -73,7 +73,7 @@ void Predictor::predict(const fiber::QueryOptions& options,
 
 /// Lowers the bounds to those that hold although something is unknown: it may come at any moment.
 void Predictor::limit_to_known(const fiber::QueryOptions& options,
-                               fiber_proximity::TimeToContact& message) const {
+                               fiber_proximity::TimeToContact& message) {
   using About = Knowledge::About;
   const auto limit = [&](const Completeness& known, PredictedContact& contact) {
     contact.time_lower = known.lower(contact.time_lower, 0.0);
@@ -81,17 +81,17 @@ void Predictor::limit_to_known(const fiber::QueryOptions& options,
   };
   Completeness all = scene_.knowledge.completeness(About::FIBERS_AND_ENVIRONMENT);
   const Completeness of_fibers = scene_.knowledge.completeness(About::FIBERS);
-  bool is_cut_off = false;
+  is_cut_off_ = false;
   for (const PredictedContact* contact :
        {&message.same_fiber, &message.different_fibers, &message.environment}) {
-    is_cut_off = is_cut_off || !contact->complete;
+    is_cut_off_ = is_cut_off_ || !contact->complete;
   }
   limit(of_fibers, message.same_fiber);
   limit(of_fibers, message.different_fibers);
   limit(all, message.environment);
   if (!message.problem.empty()) {
     all.add_cut_off("prediction: " + message.problem);
-  } else if (is_cut_off) {
+  } else if (is_cut_off_) {
     all.add_cut_off(cut_off_text("pairs that move", options));
   }
   message.complete = all.is_complete();

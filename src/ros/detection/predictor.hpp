@@ -37,6 +37,9 @@ class Predictor {
   /// Takes the new fibres and tells what they are about to touch.
   void predict(const fiber::QueryOptions& options, fiber_proximity::TimeToContact& message);
 
+  /// Whether a deadline or a limit came before the end of the last prediction.
+  bool is_cut_off() const { return is_cut_off_; }
+
   /// Fibres are not looked at: their velocities are not known any more.
   void skip() { inputs_frames_.clear(); }
 
@@ -53,12 +56,12 @@ class Predictor {
   void take_frames();
   bool predict_places(fiber_proximity::TimeToContact& message);
   void find_contacts(const fiber::QueryOptions& options, fiber_proximity::TimeToContact& message);
-  void limit_to_known(const fiber::QueryOptions& options,
-                      fiber_proximity::TimeToContact& message) const;
+  void limit_to_known(const fiber::QueryOptions& options, fiber_proximity::TimeToContact& message);
 
   ObservedScene& scene_;
   std::unique_ptr<fiber::ProximityEngine> engine_;
   PredictionOptions options_;
+  bool is_cut_off_ = false;
   std::vector<InputFrames> inputs_frames_;  // by input
 
   // Members for their memory.

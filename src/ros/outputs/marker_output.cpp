@@ -25,7 +25,7 @@ MarkerOptions marker_options(const fiber_proximity::ProximityConfig& config) {
 
 void MarkerOutput::publish(const DetectedScene& subject, CrossingsOutput& crossings,
                            const fiber_proximity::ProximityConfig& config,
-                           const Completeness& completeness) {
+                           const Completeness& completeness, const Answer& answer) {
   is_requested_ = false;
   last_time_ = ros::SteadyTime::now();
   InputSet& inputs = subject.scene.fibers;
@@ -38,12 +38,7 @@ void MarkerOutput::publish(const DetectedScene& subject, CrossingsOutput& crossi
   if (options.show_boxes) {
     subject.detector.engine().level_boxes(options.level, boxes_);
   }
-  std::string cost;
-  if (options.show_cost) {
-    cost = cost_text(name_of(subject.query.kernel),
-                     subject.detector.update_time() + subject.detector.detect_time(),
-                     found.contact_error(), found.is_complete());
-  }
+  const std::string cost = options.show_cost ? answer_text(answer) : "";
   if (options.show_crossings) {
     crossings.find(inputs.fibers(), inputs.header());
   }

@@ -8,6 +8,7 @@
 #include "fiber_proximity/ProximityConfig.h"
 #include "src/ros/detection/detected_scene.hpp"
 #include "src/ros/detection/step_contacts.hpp"
+#include "src/ros/outputs/answer_text.hpp"
 #include "src/ros/outputs/crossings_output.hpp"
 #include "src/ros/outputs/markers.hpp"
 #include "src/ros/outputs/output_topic.hpp"
@@ -36,8 +37,10 @@ class MarkerOutput {
 
   /// Draws and publishes.
   /// @param completeness of contacts with fibres and with objects
+  /// @param answer       what is told of in text
   void publish(const DetectedScene& subject, CrossingsOutput& crossings,
-               const fiber_proximity::ProximityConfig& config, const Completeness& completeness);
+               const fiber_proximity::ProximityConfig& config, const Completeness& completeness,
+               const Answer& answer);
 
  private:
   OutputTopic<visualization_msgs::MarkerArray> topic_;

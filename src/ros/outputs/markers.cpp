@@ -1,10 +1,8 @@
 #include "src/ros/outputs/markers.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
-#include <cstdio>
 #include <map>
 
 #include "fiber_proximity/ros/conversions.hpp"
@@ -207,13 +205,6 @@ struct Strand {
 };
 
 }  // namespace
-
-std::string cost_text(const std::string& kernel, double seconds, double error, bool is_complete) {
-  std::array<char, 128> text{};
-  std::snprintf(text.data(), text.size(), "%s: %.2f ms, error <= %.1e m%s", kernel.c_str(),
-                1e3 * seconds, error, is_complete ? "" : ", cut off");
-  return text.data();
-}
 
 std::vector<LegendLine> legend_lines(const MarkerOptions& options, bool has_distances,
                                      double margin) {

@@ -45,7 +45,7 @@ struct Drawing {
   const std::vector<fiber::Contact>& contacts;
   const fiber::Contact* minimum;                    ///< the closest pair, nullptr if there is none
   const std::vector<fiber::NodeBox>& boxes;         ///< of the level to show, if boxes are shown
-  const std::string& cost;                          ///< see cost_text(), if the cost is shown
+  const std::string& cost;                          ///< see answer_text(), if it is shown
   const CrossingDrawing* crossings = nullptr;       ///< nullptr if there are none to show
   const std::vector<std::string>* names = nullptr;  ///< of the fibres, if they are shown
   const std::vector<LegendLine>* legend = nullptr;  ///< if it is shown
@@ -53,11 +53,6 @@ struct Drawing {
   const std::vector<std::string>* unknown = nullptr;  ///< what the answer lacks; it is always shown
   const EnvironmentDrawing* environment = nullptr;    ///< nullptr if the fibres are alone
 };
-
-/// The cost of an answer and its accuracy, in one line.
-/// @param seconds of update and detection
-/// @param error   [m] of a contact's distance, at most
-std::string cost_text(const std::string& kernel, double seconds, double error, bool is_complete);
 
 /// The legend of the markers that these options show: a line for each colour.
 /// @param has_distances whether there are distances from objects to explain
@@ -86,7 +81,7 @@ void draw_crossings(const fiber::FiberAssembly& fibers, const CrossingDrawing& d
 /// | `nearest`      | 0           | LINE_LIST between the nearest points of the closest pair     |
 /// | `nearest_text` | 0           | its distance in mm, beside it                                |
 /// | `nearest_leader`| 0          | LINE_LIST from there to the text                             |
-/// | `cost`         | 0           | TEXT_VIEW_FACING above all fibres: kernel, ms, error in m    |
+/// | `cost`         | 0           | TEXT_VIEW_FACING above all fibres: see answer_text()         |
 /// | `boxes`        | 0           | LINE_LIST of the edges of the boxes                          |
 /// | `crossings`    | 0           | LINE_LIST: bars over, stubs under; green +1, magenta −1      |
 /// | `names`        | fibre index | TEXT_VIEW_FACING at each fibre's first point, unless there   |

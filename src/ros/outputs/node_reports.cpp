@@ -17,8 +17,8 @@ StatisticsOutput::StatisticsOutput(const ros::NodeHandle& private_node, const De
                                    const Newcomer& on_newcomer)
     : about_(about), topic_(private_node, "statistics", on_newcomer) {}
 
-void StatisticsOutput::publish(const Completeness& of_fibers, const Completeness& of_all,
-                               double time) {
+void StatisticsOutput::publish(const Answer& answer, const Completeness& of_fibers,
+                               const Completeness& of_all) {
   const auto& [scene, detector, environment, step, query] = about_;
   fiber_proximity::Statistics& message = topic_.message();
   message.header = scene.fibers.header();
@@ -31,10 +31,10 @@ void StatisticsOutput::publish(const Completeness& of_fibers, const Completeness
   message.contacts = to_count(found.contacts().contacts.size());
   message.minimum_distance = found.minimum() != nullptr ? found.minimum()->distance
                                                         : std::numeric_limits<double>::infinity();
-  message.merge_time = parts_.front().second;
+  message.merge_time = answer.parts.front().seconds;
   message.update_time = detector.update_time();
   message.detect_time = detector.detect_time();
-  message.total_time = time;
+  message.total_time = answer.total_time;
   message.kernel = name_of(query.kernel);
   message.complete = of_all.is_complete();
   message.unknown = of_all.unknown();
@@ -48,9 +48,11 @@ void StatisticsOutput::publish(const Completeness& of_fibers, const Completeness
   message.primitive_tests = found.counts().primitive_tests;
   message.parts.clear();
   message.part_times.clear();
-  for (const auto& [name, seconds] : parts_) {
-    message.parts.push_back(name);
-    message.part_times.push_back(seconds);
+  message.part_complete.clear();
+  for (const AnswerPart& part : answer.parts) {
+    message.parts.push_back(part.name);
+    message.part_times.push_back(part.seconds);
+    message.part_complete.push_back(static_cast<std::uint8_t>(part.is_complete));
   }
   message.discrete_answers = step.problem_count();
   message.discrete_reason = step.problem();
@@ -65,6 +67,7 @@ void StatisticsOutput::publish(const Completeness& of_fibers, const Completeness
   for (const auto& input : scene.environment.statistics(ros::Time::now())) {
     message.inputs.push_back(input);
   }
+  message.summary = answer_text(answer);
   topic_.publish();
 }
 

@@ -6,11 +6,10 @@
 #include <cstdint>
 #include <map>
 #include <string>
-#include <utility>
-#include <vector>
 
 #include "fiber_proximity/Statistics.h"
 #include "src/ros/detection/detected_scene.hpp"
+#include "src/ros/outputs/answer_text.hpp"
 #include "src/ros/outputs/output_topic.hpp"
 
 namespace fiber_proximity_ros {
@@ -23,20 +22,13 @@ class StatisticsOutput {
 
   bool has_listeners() const { return topic_.has_listeners(); }
 
-  /// Forgets the parts of the answer before.
-  void begin() { parts_.clear(); }
-
-  /// Adds a part of the answer and how long it took [s]. The first part is the merging of inputs.
-  void add_part(const std::string& name, double seconds) { parts_.emplace_back(name, seconds); }
-
+  /// @param answer    its first part is the merging of inputs
   /// @param of_fibers how complete the contacts of fibres are, of all how complete all of it is
-  /// @param time      [s] of all of it, with conversions
-  void publish(const Completeness& of_fibers, const Completeness& of_all, double time);
+  void publish(const Answer& answer, const Completeness& of_fibers, const Completeness& of_all);
 
  private:
   DetectedScene about_;
   OutputTopic<fiber_proximity::Statistics> topic_;
-  std::vector<std::pair<std::string, double>> parts_;
 };
 
 /// Answers since the last report, and how many of them a deadline or a limit has cut off.

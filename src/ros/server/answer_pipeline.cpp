@@ -3,6 +3,7 @@
 #include <ros/console.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <optional>
 #include <stdexcept>
@@ -39,7 +40,7 @@ AnswerPipeline::AnswerPipeline(const ros::NodeHandle& node, const ros::NodeHandl
 
 void AnswerPipeline::answer(const AnswerCause& cause) {
   const ProximityConfig& config = settings_.config();
-  statistics_.begin();
+  begin();
   if (cause.has_new_fibers) {
     detector_.set_fibers(scene_.fibers.fibers());
     motion_.take(scene_.fibers, config.continuous);
@@ -47,7 +48,7 @@ void AnswerPipeline::answer(const AnswerCause& cause) {
   } else {
     motion_.rest();
   }
-  statistics_.add_part("merge", cause.time_before + scene_.fibers.take_work_time());
+  add_part("merge", cause.time_before + scene_.fibers.take_work_time());
   if (cause.shows_fibers) {
     publish_fibers();
   }
@@ -67,25 +68,79 @@ void AnswerPipeline::answer(const AnswerCause& cause) {
     environment_contacts_.skip();
   }
   predict();
-  publish_markers_if_due();
+  if (wants_everything) {
+    tell_pairs();
+  }
+  const auto time = [&cause] { return cause.time_before + cause.stopwatch.seconds(); };
+  answer_.total_time = time();
+  const Stopwatch drawing;
+  if (publish_markers_if_due()) {
+    add_part("markers", drawing.seconds());
+  }
   compare();
+  answer_.total_time = time();
+  answer_.goes_on = false;
   if (has_statistics) {
-    statistics_.publish(scene_.knowledge.completeness(Knowledge::About::FIBERS),
-                        completeness_of_all(), cause.time_before + cause.stopwatch.seconds());
+    statistics_.publish(answer_, scene_.knowledge.completeness(Knowledge::About::FIBERS),
+                        completeness_of_all());
   }
 }
 
 void AnswerPipeline::answer_about_environment() {
   if (environment_contacts_.has_listeners()) {
-    statistics_.begin();
+    const Stopwatch stopwatch;
+    begin();
     motion_.rest();
     detect_in_environment();
+    if (markers_.has_listeners()) {
+      tell_pairs();
+    }
+    answer_.total_time = stopwatch.seconds();
+    answer_.goes_on = false;
   }
 }
 
 void AnswerPipeline::tick() {
   publish_markers_if_due();
   diagnostics_.update();
+}
+
+void AnswerPipeline::begin() {
+  answer_.parts.clear();
+  answer_.goes_on = true;
+}
+
+void AnswerPipeline::add_part(const std::string& name, double seconds, bool is_complete) {
+  answer_.parts.push_back({name, seconds, is_complete});
+}
+
+/// Keeps what is known of the pairs, as the parameters may be others when it is drawn.
+void AnswerPipeline::tell_pairs() {
+  using About = Knowledge::About;
+  const auto tell = [this](const Detection& found, About about) {
+    const Completeness known = scene_.knowledge.completeness(about);
+    PairsAnswer pairs;
+    pairs.asked = settings_.query();
+    pairs.was_all_there = known.was_all_there();
+    pairs.is_cut_off = !found.are_contacts_complete();
+    pairs.has_failed = found.has_failed();
+    pairs.limit_reached = found.contacts().limit_reached;
+    pairs.contacts = found.contacts().contacts.size();
+    pairs.contact_error = found.contact_error();
+    pairs.others_lower = found.contacts().others_lower;
+    if (found.minimum() != nullptr) {
+      pairs.minimum = found.minimum()->distance;
+    }
+    pairs.minimum_lower =
+        known.lower(found.minimum_lower(), -std::numeric_limits<double>::infinity());
+    pairs.minimum_upper = found.minimum_upper();
+    return pairs;
+  };
+  answer_.fibers = tell(detector_.detection(), About::FIBERS);
+  answer_.objects.reset();
+  if (scene_.environment.is_used()) {
+    answer_.objects = tell(environment_.detection(), About::FIBERS_AND_ENVIRONMENT);
+  }
 }
 
 /// These cannot say what is unknown: they are about fibres, where there are any.
@@ -98,7 +153,7 @@ void AnswerPipeline::publish_fibers() {
   if (crossings_.is_wanted()) {
     const Stopwatch stopwatch;
     crossings_.publish(scene_.fibers.fibers(), scene_.fibers.header(), scene_.fibers.names());
-    statistics_.add_part("crossings", stopwatch.seconds());
+    add_part("crossings", stopwatch.seconds());
   }
 }
 
@@ -115,10 +170,10 @@ void AnswerPipeline::detect() {
     ROS_WARN_STREAM_THROTTLE(1.0, "fibres (engine " << detector_.engine_name() << "): " << problem
                                                     << input_with_most_contacts());
   }
-  statistics_.add_part("update", detector_.update_time());
-  statistics_.add_part("contacts", found.contact_time());
+  add_part("update", detector_.update_time(), !found.has_failed());
+  add_part("contacts", found.contact_time(), found.are_contacts_complete());
   if (wants_minimum) {
-    statistics_.add_part("minimum", found.minimum_time());
+    add_part("minimum", found.minimum_time(), found.is_minimum_complete());
   }
 }
 
@@ -142,7 +197,7 @@ void AnswerPipeline::publish_contacts() {
   const std::optional<KnownMotion> motion =
       motion_.detect(query, found.has_all_of(query), settings_.config().motion_tolerance);
   if (motion) {
-    statistics_.add_part("motion", motion_time.seconds());
+    add_part("motion", motion_time.seconds(), motion->result.complete);
   }
   const Stopwatch stopwatch;
   const BodyNames names{scene_.fibers.names(), {}};
@@ -151,7 +206,7 @@ void AnswerPipeline::publish_contacts() {
   diagnostics_.count(found.cut_off(query));
   contacts_.track(answer);
   markers_.add_passed(contacts_.contacts());
-  statistics_.add_part("touches", stopwatch.seconds());
+  add_part("touches", stopwatch.seconds());
   scene_.fibers.doubt(detector_.update_time() + detector_.detect_time() + stopwatch.seconds());
   contacts_.publish(answer, settings_.config().gradients, detector_.update_time());
 }
@@ -165,21 +220,22 @@ void AnswerPipeline::detect_in_environment() {
   const ContinuousStep step{fiber_step.motion(), fiber_step.time(), config.motion_tolerance};
   environment_.detect(query, config.minimum_distance,
                       fiber_step.is_motion() || fiber_step.rests() ? &step : nullptr, is_tracked);
-  statistics_.add_part("environment_update", environment_.update_time());
-  statistics_.add_part("environment_contacts", environment_.detection().contact_time());
+  const Detection& found = environment_.detection();
+  add_part("environment_update", environment_.update_time());
+  add_part("environment_contacts", found.contact_time(), found.are_contacts_complete());
   if (config.minimum_distance) {
-    statistics_.add_part("environment_minimum", environment_.detection().minimum_time());
+    add_part("environment_minimum", found.minimum_time(), found.is_minimum_complete());
   }
-  if (environment_.motion_time() > 0.0) {
-    statistics_.add_part("environment_motion", environment_.motion_time());
+  if (const KnownMotion* const motion = environment_.motion(); motion != nullptr) {
+    add_part("environment_motion", environment_.motion_time(), motion->result.complete);
   }
   if (!is_tracked) {
     environment_contacts_.skip();
     return;
   }
   const BodyNames names{scene_.fibers.names(), object_names(environment_.environment())};
-  const ContactAnswer answer{environment_.detection(), query, environment_.motion(),
-                             scene_.knowledge,         names, scene_.fibers.header()};
+  const ContactAnswer answer{
+      found, query, environment_.motion(), scene_.knowledge, names, scene_.fibers.header()};
   environment_contacts_.track(answer);
   environment_contacts_.publish(answer, config.gradients, environment_.update_time());
 }
@@ -195,21 +251,24 @@ void AnswerPipeline::predict() {
   const Stopwatch stopwatch;
   predictor_.predict(settings_.query(), time_to_contact_.message());
   time_to_contact_.publish();
-  statistics_.add_part("prediction", stopwatch.seconds());
+  add_part("prediction", stopwatch.seconds(), !predictor_.is_cut_off());
 }
 
 void AnswerPipeline::compare() {
   if (settings_.config().compare && comparison_.has_listeners()) {
     const Stopwatch stopwatch;
     comparison_.publish();
-    statistics_.add_part("comparison", stopwatch.seconds());
+    add_part("comparison", stopwatch.seconds());
   }
 }
 
-void AnswerPipeline::publish_markers_if_due() {
-  if (markers_.is_due()) {
-    markers_.publish(detected(), crossings_, settings_.config(), completeness_of_all());
+/// @returns whether they were
+bool AnswerPipeline::publish_markers_if_due() {
+  const bool is_due = markers_.is_due();
+  if (is_due) {
+    markers_.publish(detected(), crossings_, settings_.config(), completeness_of_all(), answer_);
   }
+  return is_due;
 }
 
 /// The completeness of contacts of fibres with each other and with objects.

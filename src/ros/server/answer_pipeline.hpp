@@ -3,6 +3,7 @@
 #include <ros/node_handle.h>
 
 #include <functional>
+#include <string>
 
 #include "fiber_proximity/FiberArray.h"
 #include "fiber_proximity/TimeToContact.h"
@@ -12,6 +13,7 @@
 #include "src/ros/detection/motion_detector.hpp"
 #include "src/ros/detection/observed_scene.hpp"
 #include "src/ros/detection/predictor.hpp"
+#include "src/ros/outputs/answer_text.hpp"
 #include "src/ros/outputs/comparison_output.hpp"
 #include "src/ros/outputs/contact_output.hpp"
 #include "src/ros/outputs/crossings_output.hpp"
@@ -58,6 +60,9 @@ class AnswerPipeline {
   }
 
  private:
+  void begin();
+  void add_part(const std::string& name, double seconds, bool is_complete = true);
+  void tell_pairs();
   void publish_fibers();
   void detect();
   std::string input_with_most_contacts() const;
@@ -65,7 +70,7 @@ class AnswerPipeline {
   void detect_in_environment();
   void predict();
   void compare();
-  void publish_markers_if_due();
+  bool publish_markers_if_due();
   Completeness completeness_of_all() const;
 
   const Settings& settings_;
@@ -82,6 +87,7 @@ class AnswerPipeline {
   MarkerOutput markers_;
   ComparisonOutput comparison_;
   StatisticsOutput statistics_;
+  Answer answer_;  // the last one
   Diagnostics diagnostics_;
 };
 

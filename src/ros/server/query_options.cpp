@@ -2,42 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <sstream>
 #include <stdexcept>
 #include <string>
-#include <vector>
 
-#include "src/text/join.hpp"
-#include "src/text/quote.hpp"
+#include "src/ros/server/accuracy_preset.hpp"
 
 namespace fiber_proximity_ros {
-namespace {
-
-/// The parameter `accuracy` stands for some of the others.
-void apply_accuracy(const std::string& accuracy, fiber::QueryOptions& options) {
-  if (accuracy == "custom") {
-    return;
-  }
-  options.tolerance = 0.0;
-  options.relative_tolerance = 0.0;
-  if (accuracy == "deadline") {
-    if (options.deadline == 0.0) {
-      throw std::invalid_argument("accuracy is 'deadline' and deadline is 0 s, it must be above 0");
-    }
-    options.kernel = fiber::Kernel::ROBUST;
-    return;
-  }
-  options.deadline = 0.0;
-  try {
-    options.kernel = fiber::kernel_from_name(accuracy);
-  } catch (const std::invalid_argument&) {
-    throw std::invalid_argument("unknown accuracy " + fiber::quote(accuracy) +
-                                ", known are: custom, robust, exact, deadline");
-  }
-}
-
-}  // namespace
-
 fiber::QueryOptions to_query_options(const fiber_proximity::ProximityConfig& config) {
   fiber::QueryOptions options;
   options.type = fiber::query_type_from_name(config.query_type);
@@ -59,27 +29,6 @@ fiber::QueryOptions to_query_options(const fiber_proximity::ProximityConfig& con
   fiber::validate(options);
   apply_accuracy(config.accuracy, options);
   return options;
-}
-
-std::string overridden_by_accuracy(const fiber_proximity::ProximityConfig& config,
-                                   const fiber::QueryOptions& options) {
-  const auto& defaults = fiber_proximity::ProximityConfig::__getDefault__();
-  std::vector<std::string> overridden;
-  if (config.kernel != name_of(options.kernel) && config.kernel != defaults.kernel) {
-    overridden.push_back("kernel " + config.kernel);
-  }
-  const auto add = [&](const std::string& name, double value, double used, double usual) {
-    if (value != used && value != usual) {
-      std::ostringstream text;
-      text << name << ' ' << value;
-      overridden.push_back(text.str());
-    }
-  };
-  add("tolerance", config.tolerance, options.tolerance, defaults.tolerance);
-  add("relative_tolerance", config.relative_tolerance, options.relative_tolerance,
-      defaults.relative_tolerance);
-  add("deadline", config.deadline, options.deadline, defaults.deadline);
-  return fiber::join(overridden);
 }
 
 fiber::QueryType to_query_type(std::uint8_t type) {

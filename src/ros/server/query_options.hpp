@@ -13,12 +13,6 @@ namespace fiber_proximity_ros {
 /// @throws std::invalid_argument naming the parameter, its value and what is allowed
 fiber::QueryOptions to_query_options(const fiber_proximity::ProximityConfig& config);
 
-/// The parameters that `accuracy` overrides although they have been set to something else than
-/// their defaults, such as "kernel exact, tolerance 0.001"; empty if there are none.
-/// @param options that to_query_options() has made of the configuration
-std::string overridden_by_accuracy(const fiber_proximity::ProximityConfig& config,
-                                   const fiber::QueryOptions& options);
-
 /// The type of this number, as the requests have them.
 /// @throws std::invalid_argument listing the numbers
 fiber::QueryType to_query_type(std::uint8_t type);

@@ -17,22 +17,6 @@ using XmlRpc::XmlRpcValue;
 
 const NodeInterface& interface() { return interface_of("proximity"); }
 
-/// @returns why these are no values of parameters of this type that can change; empty if they are
-template <class Entries>
-std::string not_of_type(const std::string& type, const Entries& entries) {
-  for (const auto& entry : entries) {
-    const Parameter* const parameter = interface().find(entry.name);
-    if (parameter == nullptr || !parameter->is_dynamic) {
-      return "there is no parameter " + entry.name;
-    }
-    if (parameter->type != type) {
-      return "parameter " + entry.name + " is a value of type " + type + ", it must be " +
-             parameter->must_be;
-    }
-  }
-  return "";
-}
-
 template <class Entries>
 void require_allowed(const Parameters& parameters, const Entries& entries) {
   for (const auto& entry : entries) {
@@ -169,20 +153,6 @@ void check(const ros::NodeHandle& private_node, const ProximityConfig& config) {
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument("parameter " + private_node.getNamespace() + "/" + error.what());
   }
-}
-
-// NOLINTNEXTLINE(bugprone-reserved-identifier, cert-dcl37-c, cert-dcl51-cpp)
-bool AskedConfig::__fromMessage__(dynamic_reconfigure::Config& message) {
-  for (const std::string& problem :
-       {not_of_type("bool", message.bools), not_of_type("int", message.ints),
-        not_of_type("double", message.doubles), not_of_type("str", message.strs)}) {
-    if (!problem.empty()) {
-      problem_ = problem;
-      return false;
-    }
-  }
-  problem_.clear();
-  return ProximityConfig::__fromMessage__(message);
 }
 
 }  // namespace fiber_proximity_ros

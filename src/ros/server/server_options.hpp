@@ -36,27 +36,4 @@ ServerOptions read_server_options(const ros::NodeHandle& node, const ros::NodeHa
 /// @throws std::invalid_argument naming the parameter, its value and what is allowed
 void check(const ros::NodeHandle& private_node, const fiber_proximity::ProximityConfig& config);
 
-/// The configuration as it is asked for: dynamic_reconfigure::Server would bend a value that is out
-/// of range to the nearest that is not, and drop one of another type, before the node sees it.
-class AskedConfig : public fiber_proximity::ProximityConfig {
- public:
-  AskedConfig() : AskedConfig(__getDefault__()) {}
-  // The server makes one of the class's limits, too.
-  // NOLINTNEXTLINE(google-explicit-constructor, hicpp-explicit-conversions)
-  AskedConfig(const fiber_proximity::ProximityConfig& config) : ProximityConfig(config) {}
-
-  // The server calls these; they hide those of the base class.
-  // NOLINTBEGIN(bugprone-reserved-identifier, cert-dcl37-c, cert-dcl51-cpp)
-  void __clamp__() {}
-  bool __fromMessage__(dynamic_reconfigure::Config& message);
-  // NOLINTEND(bugprone-reserved-identifier, cert-dcl37-c, cert-dcl51-cpp)
-
-  /// Why the message that was read last has something that is no parameter of its name and type;
-  /// empty if all are.
-  const std::string& problem() const { return problem_; }
-
- private:
-  std::string problem_;
-};
-
 }  // namespace fiber_proximity_ros

@@ -3,9 +3,10 @@
 #include <ros/console.h>
 
 #include <stdexcept>
-#include <string>
 
+#include "src/ros/server/accuracy_preset.hpp"
 #include "src/ros/server/query_options.hpp"
+#include "src/ros/server/server_options.hpp"
 
 namespace fiber_proximity_ros {
 
@@ -26,13 +27,14 @@ void Settings::change(AskedConfig& asked) {
     asked = config_;  // the server announces what is really in use
     return;
   }
-  config_ = static_cast<const fiber_proximity::ProximityConfig&>(asked);
+  config_ = asked;
   query_ = to_query_options(config_);
-  if (const std::string overridden = overridden_by_accuracy(config_, query_); !overridden.empty()) {
+  const std::string problem = accuracy_problem(config_, query_);
+  if (!problem.empty() && problem != told_) {
     ROS_WARN_STREAM("parameter " << private_node_.resolveName("accuracy") << " is "
-                                 << config_.accuracy << ", which overrides " << overridden
-                                 << "; accuracy custom uses them");
+                                 << config_.accuracy << ", which " << problem);
   }
+  told_ = problem;
 }
 
 }  // namespace fiber_proximity_ros

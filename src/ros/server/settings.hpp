@@ -3,9 +3,11 @@
 #include <dynamic_reconfigure/server.h>
 #include <ros/node_handle.h>
 
+#include <string>
+
 #include "fiber_proximity/ProximityConfig.h"
 #include "fiber_proximity/query/options.hpp"
-#include "src/ros/server/server_options.hpp"
+#include "src/ros/server/asked_config.hpp"
 
 namespace fiber_proximity_ros {
 
@@ -25,8 +27,9 @@ class Settings {
   void change(AskedConfig& asked);
 
   ros::NodeHandle private_node_;
-  fiber_proximity::ProximityConfig config_;
+  AskedConfig config_;
   fiber::QueryOptions query_;
+  std::string told_;  // of accuracy_problem()
   dynamic_reconfigure::Server<AskedConfig> server_;
 };
 
