@@ -310,6 +310,7 @@ void draw_legend(SvgDrawing& drawing, const Looks& looks) {
   drawing.text(left_space + 14, below, "what to take; left and low is good");
   drawing.text(left_space + 14, below + 18, "pale: another one is as accurate and faster");
   drawing.text(left_space + 14, below + 36, "dotted: up to what the answer states itself");
+  drawing.text(left_space + 14, below + 54, "at the upper edge: no answer at all, or beyond it");
 }
 
 }  // namespace
@@ -327,11 +328,14 @@ std::string picture_of(const AccuracyReport& report) {
   for (std::size_t cell = 0; cell < cells; ++cell) {
     const double x = panel_width * static_cast<double>(cell % columns);
     const double y = top + panel_height * static_cast<double>(cell / columns);
+    // The question that matters most is the last one of a report, and the first panel.
+    const QuestionReport* const question =
+        cell < report.questions.size() ? &report.questions.rbegin()[cell] : nullptr;
     drawing.begin_group(
-        cell < report.questions.size() ? report.questions[cell].question : "settings",
+        question != nullptr ? question->question : "settings",
         "transform=\"translate(" + rounded_text(x, 6) + ' ' + rounded_text(y, 6) + ")\"");
-    if (cell < report.questions.size()) {
-      Panel(drawing, report, report.questions[cell], looks).draw();
+    if (question != nullptr) {
+      Panel(drawing, report, *question, looks).draw();
     } else {
       draw_legend(drawing, looks);
     }

@@ -45,22 +45,25 @@ bool is_accurate_enough(const SettingOutcome& outcome, double limit) {
          keeps_bounds(outcome) && inaccuracy(outcome) <= limit;
 }
 
-/// Of those that are accurate enough and nearly as fast as the fastest: the reference, or else the
-/// most accurate.
+/// Of those that are accurate enough, the reference if it is nearly as fast as the fastest; else of
+/// those that are as well, and clearly faster than the reference, the most accurate.
 const SettingOutcome& preferred(const std::vector<SettingOutcome>& outcomes,
                                 const SettingOutcome& reference, double limit) {
-  double fastest_ms = reference.p50_ms;
+  const SettingOutcome* fastest = &reference;
   for (const SettingOutcome& outcome : outcomes) {
-    if (is_accurate_enough(outcome, limit)) {
-      fastest_ms = std::min(fastest_ms, outcome.p50_ms);
+    if (is_accurate_enough(outcome, limit) && outcome.p50_ms < fastest->p50_ms) {
+      fastest = &outcome;
     }
   }
-  const double limit_ms = max_ratio_to_fastest * fastest_ms;
-  const SettingOutcome* taken = &reference;
+  const double fastest_ms = fastest->p50_ms;
+  if (reference.p50_ms <= max_ratio_to_fastest * fastest_ms) {
+    return reference;
+  }
+  const SettingOutcome* taken = fastest;
   for (const SettingOutcome& outcome : outcomes) {
-    const bool is_better = taken->p50_ms > limit_ms ||
-                           (taken != &reference && inaccuracy(outcome) < inaccuracy(*taken));
-    if (is_accurate_enough(outcome, limit) && outcome.p50_ms <= limit_ms && is_better) {
+    if (is_accurate_enough(outcome, limit) && inaccuracy(outcome) < inaccuracy(*taken) &&
+        outcome.p50_ms <= max_ratio_to_fastest * fastest_ms &&
+        max_ratio_to_fastest * outcome.p50_ms < reference.p50_ms) {
       taken = &outcome;
     }
   }

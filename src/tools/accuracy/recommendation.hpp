@@ -26,8 +26,8 @@ std::vector<bool> dominated(const std::vector<SettingOutcome>& outcomes);
 /// What to take of the settings of one question. Accurate enough are answers without a deadline
 /// that miss and invent nothing and whose error and doubt are at most half of the tracker's noise,
 /// which then adds an eighth to the error at most; without noise, those that are off by no more
-/// than a nanometre or than the reference. Of those that take at most three percent longer than the
-/// fastest of these, the reference is taken, or else the most accurate: with the five percent of
+/// than a nanometre or than the reference. The reference is taken if it takes at most three percent
+/// longer than the fastest of these, else the most accurate that does: with the five percent of
 /// is_dominated(), a second measurement comes to nothing better.
 /// @param outcomes of one question, the reference among them
 /// @param noise      [m] of a coordinate of the tracked points, where it is known

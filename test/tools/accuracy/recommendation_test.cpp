@@ -53,6 +53,15 @@ TEST(Recommendation, AToleranceOnlyWithinHalfOfTheNoise) {
   EXPECT_EQ(taken(outcomes, 2.1e-2), outcomes[2].setting.name);
 }
 
+TEST(Recommendation, OfThoseAsFastTheMostAccurate) {
+  const std::vector<SettingOutcome> outcomes{robust(1.0), tolerance(1e-5, 0.71),
+                                             tolerance(1e-3, 0.7)};
+  EXPECT_EQ(taken(outcomes, 0.01), outcomes[1].setting.name);
+  const std::vector<SettingOutcome> close{robust(1.0), tolerance(1e-5, 0.98),
+                                          tolerance(1e-3, 0.96)};
+  EXPECT_EQ(taken(close, 0.01), close[2].setting.name) << "the other one gains nothing";
+}
+
 TEST(Recommendation, NeverWhatMayGoWrongElsewhere) {
   const SettingOutcome deadline = outcome(SettingKind::DEADLINE, "deadline at 50 %", 0.5);
   EXPECT_EQ(taken({robust(1.0), deadline}, 0.1), "robust") << "complete in these frames only";
