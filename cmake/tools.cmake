@@ -38,7 +38,8 @@ add_library(fiber_proximity_accuracy_tools OBJECT
   src/tools/accuracy/answer_errors.cpp src/tools/accuracy/answer_setting.cpp
   src/tools/accuracy/frame_order.cpp src/tools/accuracy/frame_survey.cpp src/tools/accuracy/noise.cpp
   src/tools/accuracy/recommendation.cpp src/tools/accuracy/resampling.cpp
-  src/tools/accuracy/setting_measurement.cpp src/tools/accuracy/setting_run.cpp
+  src/tools/accuracy/setting_choices.cpp src/tools/accuracy/setting_measurement.cpp
+  src/tools/accuracy/setting_run.cpp
   src/tools/accuracy/svg_drawing.cpp)
 target_link_libraries(fiber_proximity_accuracy_tools PUBLIC
   fiber_proximity nlohmann_json::nlohmann_json fiber_proximity_options)
