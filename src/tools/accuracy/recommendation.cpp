@@ -19,9 +19,11 @@ constexpr double clearly_faster = 0.95;
 /// What is more accurate is taken if it takes at most so many times as long as the fastest.
 constexpr double nearly_as_fast = 1.03;
 
-/// How many times as long medians of so few answers may take by chance alone.
+/// How many times as long a median may take by chance alone: a standard error of its ratio to the
+/// reference's; of few answers it is not known either.
 double chance(const SettingOutcome& outcome) {
-  return 1.0 + 0.5 / static_cast<double>(std::max<std::size_t>(outcome.answers, 1));
+  const auto answers = static_cast<double>(std::max<std::size_t>(outcome.answers, 1));
+  return 1.0 + std::max(outcome.ratio_error, 0.5 / answers);
 }
 
 /// A tolerance that is as large as the noise states a rounding more.
@@ -227,7 +229,7 @@ bool is_dominated(const SettingOutcome& outcome, const SettingOutcome& other) {
       other.invented_percent <= outcome.invented_percent &&
       other.complete_percent >= outcome.complete_percent && keeps_bounds(other);
   return is_as_accurate && other.setting.kind != SettingKind::DEADLINE &&
-         other.p50_ms * chance(other) < clearly_faster * outcome.p50_ms;
+         other.p50_ms * std::max(chance(other), chance(outcome)) < clearly_faster * outcome.p50_ms;
 }
 
 std::vector<bool> dominated(const std::vector<SettingOutcome>& outcomes) {

@@ -9,7 +9,7 @@ namespace fiber {
 namespace {
 
 /// Above so many segments an engine that examines every pair is not compared.
-constexpr std::size_t max_brute_force_segments = 3000;
+constexpr std::size_t max_brute_force_segments = 1000;
 
 /// Resampled fibres are compared where they have at most this part of the points.
 constexpr double max_resampled_part = 0.8;

@@ -70,7 +70,8 @@ class Measurement {
     measurement.left_out = left_out_;
     for (std::size_t i = 0; i < runs_.size(); ++i) {
       if (is_on_[i]) {
-        measurement.outcomes.push_back(runs_[i].outcome());
+        const SettingRun& reference = runs_[reference_of_.at(runs_[i].setting().question)];
+        measurement.outcomes.push_back(runs_[i].outcome(reference));
       }
     }
     return measurement;
@@ -129,7 +130,7 @@ class Measurement {
       double ms = std::numeric_limits<double>::infinity();
       const double max_ms = 1e3 * max_part_of_budget * budget_.seconds();
       for (int k = 0; k < 2 || (k < 3 && ms < slow_ms); ++k) {
-        if (!setting.is_reference && k > 0 && ms > 10.0 * max_ms) {
+        if (k == 1 && is_hopeless(setting, ms, whole_ms, max_ms)) {
           break;
         }
         EngineInUse& in_use = engines_[engine_of_[i]];
@@ -146,6 +147,12 @@ class Measurement {
       }
     }
     warm_up_ms_ = whole_ms_;
+  }
+
+  /// Whether not even the first answer, for which engines are built, needs to be repeated.
+  static bool is_hopeless(const AnswerSetting& setting, double ms, double whole_ms, double max_ms) {
+    return !setting.is_reference && (ms > 10.0 * max_ms || (setting.kind == SettingKind::ENGINE &&
+                                                            ms > 5.0 * max_ratio * whole_ms));
   }
 
   void leave_out(std::size_t run, const std::string& reason) {
