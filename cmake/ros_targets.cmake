@@ -55,6 +55,7 @@ add_library(fiber_proximity_ros SHARED
   src/ros/server/answer_pipeline.cpp
   src/ros/server/asked_config.cpp
   src/ros/server/check_service.cpp
+  src/ros/server/measure_service.cpp
   src/ros/server/proximity_server.cpp
   src/ros/server/query_options.cpp
   src/ros/server/query_services.cpp
