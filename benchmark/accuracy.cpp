@@ -5,15 +5,15 @@
 #include <memory>
 
 #include "benchmark/accuracy_settings.hpp"
-#include "benchmark/answer_errors.hpp"
 #include "benchmark/commands.hpp"
 #include "benchmark/options.hpp"
 #include "benchmark/report.hpp"
 #include "benchmark/scene_options.hpp"
-#include "benchmark/statistics.hpp"
 #include "fiber_proximity/query/engine.hpp"
 #include "fiber_proximity/scenes/scene.hpp"
+#include "src/tools/accuracy/answer_errors.hpp"
 #include "src/tools/progress.hpp"
+#include "src/tools/statistics.hpp"
 
 namespace fiber {
 namespace {

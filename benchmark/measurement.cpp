@@ -9,10 +9,10 @@
 #include "benchmark/agreement.hpp"
 #include "benchmark/copies.hpp"
 #include "benchmark/peers/peer.hpp"
-#include "benchmark/statistics.hpp"
 #include "benchmark/swapped_places.hpp"
 #include "fiber_proximity/scenes/scene.hpp"
 #include "src/tools/progress.hpp"
+#include "src/tools/statistics.hpp"
 
 namespace fiber {
 namespace {

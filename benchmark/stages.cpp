@@ -6,10 +6,10 @@
 #include "benchmark/options.hpp"
 #include "benchmark/report.hpp"
 #include "benchmark/scene_options.hpp"
-#include "benchmark/statistics.hpp"
 #include "fiber_proximity/query/engine.hpp"
 #include "fiber_proximity/scenes/scene.hpp"
 #include "src/paper/engines/leaf_pretest.hpp"
+#include "src/tools/statistics.hpp"
 
 namespace fiber {
 namespace {

@@ -6,10 +6,10 @@
 
 #include "benchmark/continuous/fiber_ways.hpp"
 #include "benchmark/processor_time.hpp"
-#include "benchmark/statistics.hpp"
 #include "fiber_proximity/query/engine.hpp"
 #include "fiber_proximity/scenes/scene.hpp"
 #include "src/query/contact_evaluator.hpp"
+#include "src/tools/statistics.hpp"
 
 namespace fiber {
 namespace {

@@ -3,10 +3,10 @@
 #include <algorithm>
 
 #include "benchmark/environment/measurements.hpp"
-#include "benchmark/statistics.hpp"
 #include "fiber_proximity/environment/check_fibers.hpp"
 #include "src/query/threads.hpp"
 #include "src/tools/progress.hpp"
+#include "src/tools/statistics.hpp"
 
 namespace fiber {
 namespace {

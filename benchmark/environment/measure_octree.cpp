@@ -2,9 +2,9 @@
 
 #include "benchmark/environment/camera_cloud.hpp"
 #include "benchmark/environment/measurements.hpp"
-#include "benchmark/statistics.hpp"
 #include "fiber_proximity/environment/occupancy_octree.hpp"
 #include "src/tools/progress.hpp"
+#include "src/tools/statistics.hpp"
 
 namespace fiber {
 namespace {
