@@ -45,8 +45,8 @@ std::optional<double> checked_noise(double asked) {
   return asked > 0.0 ? std::optional<double>(asked) : std::nullopt;
 }
 
-fiber_proximity::SettingMeasurement to_message(const fiber::SettingOutcome& outcome,
-                                               bool is_dominated) {
+fiber_proximity::SettingMeasurement setting_message(const fiber::SettingOutcome& outcome,
+                                                    bool is_dominated) {
   fiber_proximity::SettingMeasurement message;
   message.question = outcome.setting.question;
   message.kind = fiber::name_of(outcome.setting.kind);
@@ -154,7 +154,7 @@ bool MeasureService::measure(MeasureSettings::Request& request,
       }
       const std::vector<bool> dominated = fiber::dominated(outcomes);
       for (std::size_t i = 0; i < outcomes.size(); ++i) {
-        response.settings.push_back(to_message(outcomes[i], dominated[i]));
+        response.settings.push_back(setting_message(outcomes[i], dominated[i]));
       }
       response.questions.push_back(question);
       response.recommendations.push_back(fiber::recommend(outcomes, noise, std::nullopt).sentence);

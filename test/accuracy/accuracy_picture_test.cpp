@@ -1,11 +1,11 @@
-#include "src/tools/accuracy/accuracy_picture.hpp"
+#include "src/accuracy/accuracy_picture.hpp"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 #include <string>
 
-#include "src/tools/accuracy/number_text.hpp"
+#include "src/accuracy/number_text.hpp"
 
 namespace fiber::test {
 namespace {

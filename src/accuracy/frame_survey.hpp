@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "fiber_proximity/io/fiber_file.hpp"
-#include "src/tools/accuracy/setting_measurement.hpp"
+#include "src/accuracy/setting_measurement.hpp"
 
 namespace fiber {
 

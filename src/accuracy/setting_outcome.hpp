@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "src/tools/accuracy/answer_setting.hpp"
+#include "src/accuracy/answer_setting.hpp"
 
 namespace fiber {
 

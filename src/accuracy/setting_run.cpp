@@ -1,9 +1,9 @@
-#include "src/tools/accuracy/setting_run.hpp"
+#include "src/accuracy/setting_run.hpp"
 
 #include <algorithm>
 #include <limits>
 
-#include "src/tools/statistics.hpp"
+#include "src/accuracy/statistics.hpp"
 
 namespace fiber {
 namespace {

@@ -1,4 +1,4 @@
-#include "src/tools/accuracy/accuracy_report.hpp"
+#include "src/accuracy/accuracy_report.hpp"
 
 #include <algorithm>
 #include <array>
@@ -6,8 +6,8 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "src/accuracy/number_text.hpp"
 #include "src/io/number.hpp"
-#include "src/tools/accuracy/number_text.hpp"
 
 namespace fiber {
 namespace {

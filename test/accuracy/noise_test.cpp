@@ -1,4 +1,4 @@
-#include "src/tools/accuracy/noise.hpp"
+#include "src/accuracy/noise.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "src/tools/accuracy/setting_measurement.hpp"
+#include "src/accuracy/setting_measurement.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -6,11 +6,11 @@
 #include <optional>
 #include <random>
 
-#include "src/tools/accuracy/frame_order.hpp"
-#include "src/tools/accuracy/number_text.hpp"
-#include "src/tools/accuracy/resampling.hpp"
-#include "src/tools/accuracy/setting_run.hpp"
-#include "src/tools/statistics.hpp"
+#include "src/accuracy/frame_order.hpp"
+#include "src/accuracy/number_text.hpp"
+#include "src/accuracy/resampling.hpp"
+#include "src/accuracy/setting_run.hpp"
+#include "src/accuracy/statistics.hpp"
 
 namespace fiber {
 namespace {

@@ -1,10 +1,10 @@
-#include "src/tools/accuracy/resampling.hpp"
+#include "src/accuracy/resampling.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "src/tools/accuracy/frame_order.hpp"
+#include "src/accuracy/frame_order.hpp"
 
 namespace fiber::test {
 namespace {

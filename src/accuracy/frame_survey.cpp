@@ -1,11 +1,11 @@
-#include "src/tools/accuracy/frame_survey.hpp"
+#include "src/accuracy/frame_survey.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
 
-#include "src/tools/accuracy/frame_order.hpp"
+#include "src/accuracy/frame_order.hpp"
 
 namespace fiber {
 namespace {

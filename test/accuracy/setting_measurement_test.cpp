@@ -1,4 +1,4 @@
-#include "src/tools/accuracy/setting_measurement.hpp"
+#include "src/accuracy/setting_measurement.hpp"
 
 #include <gtest/gtest.h>
 

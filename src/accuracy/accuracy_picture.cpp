@@ -1,4 +1,4 @@
-#include "src/tools/accuracy/accuracy_picture.hpp"
+#include "src/accuracy/accuracy_picture.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,8 +9,8 @@
 #include <map>
 #include <vector>
 
-#include "src/tools/accuracy/number_text.hpp"
-#include "src/tools/accuracy/svg_drawing.hpp"
+#include "src/accuracy/number_text.hpp"
+#include "src/accuracy/svg_drawing.hpp"
 
 namespace fiber {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "src/tools/accuracy/accuracy_report.hpp"
+#include "src/accuracy/accuracy_report.hpp"
 
 namespace fiber {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "src/tools/accuracy/setting_outcome.hpp"
+#include "src/accuracy/setting_outcome.hpp"
 
 namespace fiber {
 

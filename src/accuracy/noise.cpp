@@ -1,4 +1,4 @@
-#include "src/tools/accuracy/noise.hpp"
+#include "src/accuracy/noise.hpp"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <limits>
 
-#include "src/tools/statistics.hpp"
+#include "src/accuracy/statistics.hpp"
 
 namespace fiber {
 namespace {

@@ -1,11 +1,11 @@
-#include "src/tools/accuracy/recommendation.hpp"
+#include "src/accuracy/recommendation.hpp"
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <limits>
 
-#include "src/tools/accuracy/number_text.hpp"
+#include "src/accuracy/number_text.hpp"
 
 namespace fiber {
 namespace {

@@ -1,4 +1,4 @@
-#include "src/tools/accuracy/recommendation.hpp"
+#include "src/accuracy/recommendation.hpp"
 
 #include <gtest/gtest.h>
 

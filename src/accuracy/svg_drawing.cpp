@@ -1,8 +1,8 @@
-#include "src/tools/accuracy/svg_drawing.hpp"
+#include "src/accuracy/svg_drawing.hpp"
 
 #include <cmath>
 
-#include "src/tools/accuracy/number_text.hpp"
+#include "src/accuracy/number_text.hpp"
 
 namespace fiber {
 namespace {

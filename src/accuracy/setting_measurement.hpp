@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "fiber_proximity/io/fiber_file.hpp"
-#include "src/tools/accuracy/setting_outcome.hpp"
+#include "src/accuracy/setting_outcome.hpp"
 
 namespace fiber {
 

@@ -1,8 +1,8 @@
-#include "src/tools/accuracy/answer_setting.hpp"
+#include "src/accuracy/answer_setting.hpp"
 
 #include <limits>
 
-#include "src/tools/accuracy/number_text.hpp"
+#include "src/accuracy/number_text.hpp"
 
 namespace fiber {
 namespace {

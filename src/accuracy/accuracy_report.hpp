@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "src/tools/accuracy/noise.hpp"
-#include "src/tools/accuracy/recommendation.hpp"
-#include "src/tools/accuracy/setting_outcome.hpp"
+#include "src/accuracy/noise.hpp"
+#include "src/accuracy/recommendation.hpp"
+#include "src/accuracy/setting_outcome.hpp"
 
 namespace fiber {
 

@@ -5,8 +5,8 @@
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "fiber_proximity/query/contact.hpp"
-#include "src/tools/accuracy/answer_errors.hpp"
-#include "src/tools/accuracy/setting_outcome.hpp"
+#include "src/accuracy/answer_errors.hpp"
+#include "src/accuracy/setting_outcome.hpp"
 
 namespace fiber {
 

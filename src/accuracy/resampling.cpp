@@ -1,4 +1,4 @@
-#include "src/tools/accuracy/resampling.hpp"
+#include "src/accuracy/resampling.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -1,4 +1,4 @@
-#include "src/tools/accuracy/frame_order.hpp"
+#include "src/accuracy/frame_order.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "src/tools/accuracy/answer_errors.hpp"
+#include "src/accuracy/answer_errors.hpp"
 
 #include <gtest/gtest.h>
 
