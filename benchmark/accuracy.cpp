@@ -11,9 +11,9 @@
 #include "benchmark/scene_options.hpp"
 #include "fiber_proximity/query/engine.hpp"
 #include "fiber_proximity/scenes/scene.hpp"
-#include "src/tools/accuracy/answer_errors.hpp"
+#include "src/accuracy/answer_errors.hpp"
+#include "src/accuracy/statistics.hpp"
 #include "src/tools/progress.hpp"
-#include "src/tools/statistics.hpp"
 
 namespace fiber {
 namespace {

@@ -11,9 +11,9 @@
 #include "benchmark/scene_options.hpp"
 #include "benchmark/swaying.hpp"
 #include "fiber_proximity/scenes/scene.hpp"
+#include "src/accuracy/statistics.hpp"
 #include "src/query/run_tree_engine.hpp"
 #include "src/tools/progress.hpp"
-#include "src/tools/statistics.hpp"
 
 namespace fiber {
 namespace {

@@ -8,8 +8,8 @@
 #include "benchmark/kernels/pair_times.hpp"
 #include "benchmark/options.hpp"
 #include "benchmark/report.hpp"
+#include "src/accuracy/statistics.hpp"
 #include "src/tools/progress.hpp"
-#include "src/tools/statistics.hpp"
 
 namespace fiber {
 namespace {

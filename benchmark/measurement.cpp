@@ -11,8 +11,8 @@
 #include "benchmark/peers/peer.hpp"
 #include "benchmark/swapped_places.hpp"
 #include "fiber_proximity/scenes/scene.hpp"
+#include "src/accuracy/statistics.hpp"
 #include "src/tools/progress.hpp"
-#include "src/tools/statistics.hpp"
 
 namespace fiber {
 namespace {

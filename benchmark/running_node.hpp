@@ -12,7 +12,7 @@
 
 #include "benchmark/options.hpp"
 #include "benchmark/report.hpp"
-#include "src/tools/statistics.hpp"
+#include "src/accuracy/statistics.hpp"
 
 namespace fiber {
 

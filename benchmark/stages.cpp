@@ -8,8 +8,8 @@
 #include "benchmark/scene_options.hpp"
 #include "fiber_proximity/query/engine.hpp"
 #include "fiber_proximity/scenes/scene.hpp"
+#include "src/accuracy/statistics.hpp"
 #include "src/paper/engines/leaf_pretest.hpp"
-#include "src/tools/statistics.hpp"
 
 namespace fiber {
 namespace {

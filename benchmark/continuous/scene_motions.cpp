@@ -8,8 +8,8 @@
 #include "benchmark/processor_time.hpp"
 #include "fiber_proximity/query/engine.hpp"
 #include "fiber_proximity/scenes/scene.hpp"
+#include "src/accuracy/statistics.hpp"
 #include "src/query/contact_evaluator.hpp"
-#include "src/tools/statistics.hpp"
 
 namespace fiber {
 namespace {

@@ -4,9 +4,9 @@
 
 #include "benchmark/environment/measurements.hpp"
 #include "fiber_proximity/environment/check_fibers.hpp"
+#include "src/accuracy/statistics.hpp"
 #include "src/query/threads.hpp"
 #include "src/tools/progress.hpp"
-#include "src/tools/statistics.hpp"
 
 namespace fiber {
 namespace {

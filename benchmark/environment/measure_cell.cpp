@@ -4,8 +4,8 @@
 
 #include "benchmark/environment/cell_difference.hpp"
 #include "benchmark/environment/measurements.hpp"
+#include "src/accuracy/statistics.hpp"
 #include "src/tools/progress.hpp"
-#include "src/tools/statistics.hpp"
 
 namespace fiber {
 namespace {

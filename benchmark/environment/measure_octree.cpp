@@ -3,8 +3,8 @@
 #include "benchmark/environment/camera_cloud.hpp"
 #include "benchmark/environment/measurements.hpp"
 #include "fiber_proximity/environment/occupancy_octree.hpp"
+#include "src/accuracy/statistics.hpp"
 #include "src/tools/progress.hpp"
-#include "src/tools/statistics.hpp"
 
 namespace fiber {
 namespace {

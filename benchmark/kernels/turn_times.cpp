@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include "benchmark/kernels/child_process.hpp"
-#include "src/tools/statistics.hpp"
+#include "src/accuracy/statistics.hpp"
 
 namespace fiber {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "benchmark/sim/effect_scene.hpp"
 #include "fiber_proximity/sim/attachment.hpp"
-#include "src/tools/statistics.hpp"
+#include "src/accuracy/statistics.hpp"
 #include "validation/sim/contact_scenes.hpp"
 
 namespace fiber {
