@@ -35,6 +35,7 @@ TEST(InputOptions, ATopicIsEnough) {
   EXPECT_EQ(options.type, "fiber_proximity/FiberArray");
   EXPECT_EQ(options.name, "cable");
   EXPECT_EQ(options.radius, 0.25);
+  EXPECT_EQ(options.uncertainty, 0.0);
   EXPECT_EQ(options.missing_points, MissingPoints::REFUSE);
 }
 
@@ -43,6 +44,7 @@ TEST(InputOptions, EveryKeyIsRead) {
                                                     value["type"] = "visualization_msgs/Marker";
                                                     value["name"] = "left";
                                                     value["radius"] = 1;
+                                                    value["uncertainty"] = 0.002;
                                                     value["missing_points"] = "split";
                                                     value["namespace"] = "state";
                                                     value["radius_from_marker"] = true;
@@ -52,6 +54,7 @@ TEST(InputOptions, EveryKeyIsRead) {
   EXPECT_EQ(options.type, "visualization_msgs/Marker");
   EXPECT_EQ(options.name, "left");
   EXPECT_EQ(options.radius, 1.0);
+  EXPECT_EQ(options.uncertainty, 0.002);
   EXPECT_EQ(options.missing_points, MissingPoints::SPLIT);
   EXPECT_EQ(options.marker.marker_namespace, "state");
   EXPECT_TRUE(options.marker.radius_from_marker);
