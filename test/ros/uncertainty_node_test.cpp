@@ -51,15 +51,11 @@ class UncertaintyNodeTest : public node_test::NodeTest {
   /// Two known cables at a gap of 25 mm, tracked ones above with gaps of 25 mm and of 5 mm to the
   /// known ones, and one 15 mm above the ball.
   void SetUp() override {
-    ros::Publisher known = advertise<FiberArray>("known");
     FiberArray message = cables({{0.0, 0.0}, {0.0, 0.025 + 2 * radius}, {1.0, 0.0}});
-    message.header.stamp = new_stamp();
-    known_ = known;
     ASSERT_TRUE(known_around_.wait_for_connection());
     ASSERT_TRUE(node_test::wait_for([&] {
       message.header.stamp = new_stamp();
       known_.publish(message);
-      tracked_.publish(first());
       answer_ = answer_to(first());
       return answer_ != nullptr && answer_->fiber_names.size() == 6;
     }));
@@ -88,7 +84,7 @@ class UncertaintyNodeTest : public node_test::NodeTest {
   }
 
   ros::Publisher tracked_ = advertise<FiberArray>("tracked");
-  ros::Publisher known_;
+  ros::Publisher known_ = advertise<FiberArray>("known");
   node_test::Recorder<ContactArray> known_around_{node, "/proximity/environment_contacts"};
   node_test::Recorder<fiber_proximity::TimeToContact> times_{node, "/proximity/time_to_contact"};
   ros::Time stamp_;
@@ -134,9 +130,9 @@ TEST_F(UncertaintyNodeTest, ShapesAndCandidatesAreAnsweredForAllTrueFibers) {
   EXPECT_NEAR(query.response.minimum_lower[0], 0.015, tiny);
 
   const auto candidate = [](double y, double z) {
-    FiberArray fibers = cables({{y, z}});
-    fibers.header = header("world");
-    return fibers;
+    FiberArray message = cables({{y, z}});
+    message.header = header("world");
+    return message;
   };
   CheckFibers check;
   check.request.type = CheckFibers::Request::ALL;

@@ -167,7 +167,7 @@ class UncertaintyTest : public ::testing::Test {
   std::size_t truth_ = 0;
 };
 
-constexpr int rounds = 30 / fiber::test::rounds_less;
+constexpr int rounds = fiber::test::rounds(30);
 constexpr int truths_of_each = 6;
 
 TEST_F(UncertaintyTest, AnswersAboutFibersHoldForAllTrueOnes) {
