@@ -225,8 +225,9 @@ TEST(AnswerText, TellsWhichContactsOfUncertainInputsAreCertain) {
             "robust: 18 possible contacts, 12 of them certain (each to 4.00 mm), closest 27.7 mm, "
             "true 23.7 mm to 31.7 mm");
   answer.is_cut_off = true;
-  EXPECT_EQ(text_of(answer).substr(0, 72),
-            "robust: at least 18 possible contacts, 12 of them certain (each to 4.00 m");
+  EXPECT_EQ(text_of(answer),
+            "robust: at least 18 possible contacts, 12 of them certain (each to 4.00 mm), cut off, "
+            "closest 27.7 mm, true 23.7 mm to 31.7 mm");
   answer.is_cut_off = false;
   answer.asked.type = QueryType::FIRST;
   EXPECT_EQ(text_of(answer).substr(0, 27), "robust: perhaps in contact,");
