@@ -16,7 +16,8 @@ void EnvironmentDetector::detect(const fiber::QueryOptions& options, bool wants_
       std::exchange(environment_, scene_.environment.environment());
   update_time_ = scene_.environment_time + stopwatch.seconds();
   const fiber::AllowedPairs allowed = scene_.environment.allowed(scene_.fibers.names());
-  detection_.detect(options, wants_minimum,
+  const Uncertainty uncertainty(scene_.fibers.uncertainties(), Uncertainty::Bodies::A);
+  detection_.detect(options, wants_minimum, uncertainty,
                     [&](const fiber::QueryOptions& asked, fiber::QueryResult& result) {
                       environment_->query(scene_.fibers.fibers(), asked, allowed, result);
                     });
@@ -26,7 +27,8 @@ void EnvironmentDetector::detect(const fiber::QueryOptions& options, bool wants_
   motion_.reset();
   motion_time_ = 0.0;
   const bool was_tracked = std::exchange(is_tracked_, is_tracked);
-  if (step != nullptr && was_tracked && is_tracked) {
+  // When something came is known of the told points only.
+  if (step != nullptr && was_tracked && is_tracked && uncertainty.is_none()) {
     detect_motion(options, allowed, {before, environment_}, *step);
   }
 }
