@@ -271,6 +271,7 @@ def _contacts_to_msg(contacts, header, names, margin):
     for name in contacts.dtype.names:
         if name in _WIRE_CONTACT.names[:16]:
             wire[name] = contacts[name]
+    wire['certain'] = wire['upper'] <= margin
     message = ContactArray(header=header, fiber_names=list(names), since=header.stamp, margin=margin, complete=True,
                            kernel='robust')
     buffer = io.BytesIO()
