@@ -95,8 +95,10 @@ std::optional<Measurement> measure_near(const RealTimeScene& scene, double work,
   std::vector<double> detours{1.0, 0.9, 1.1, 0.8, 1.2, 0.7, 1.5, 0.5, 2.0, 0.3};
   constexpr double growth = 1.5;
   constexpr double doubt = 4.0;  // of what is extrapolated from an earlier measurement
+  constexpr double max_detour = 1000.0;
   const double expected = earlier.work * aimed_share / earlier.share;
-  for (double detour = 3.0; detour * work <= doubt * expected; detour *= growth) {
+  for (double detour = 3.0; detour <= std::min(max_detour, doubt * expected / work);
+       detour *= growth) {
     detours.push_back(detour);
   }
   for (const double detour : detours) {
