@@ -95,7 +95,8 @@ TEST_F(UncertaintyNodeTest, ContactsArePossibleOrCertain) {
   ASSERT_EQ(answer_->contacts.size(), 2U) << "the known fibres 25 mm apart are no contact";
   const Contact* const possible = find(answer_->contacts, 0, 3);
   const Contact* const certain = find(answer_->contacts, 1, 5);
-  ASSERT_TRUE(possible != nullptr && certain != nullptr);
+  ASSERT_NE(possible, nullptr);
+  ASSERT_NE(certain, nullptr);
   expect_bounds(*possible, 0.025, uncertainty, false);
   expect_bounds(*certain, 0.005, uncertainty, true);
   EXPECT_EQ(answer_->minimum_distance, certain->distance);

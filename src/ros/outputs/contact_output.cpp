@@ -113,9 +113,10 @@ void ContactOutput::publish(const ContactAnswer& answer, bool has_gradients, dou
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const nanoseconds now = to_time(header.stamp);
   const nanoseconds since = motion != nullptr ? motion->time.lower : now;
-  const auto fill_in = [&, type_b = type_b_](const fiber::Contact& contact, Contact& filled) {
+  const auto fill_in = [&, type_b = type_b_, margin = options.margin](const fiber::Contact& contact,
+                                                                      Contact& filled) {
     to_message(contact, Contact::FIBER, type_b, filled);
-    filled.certain = is_certain(contact, options.margin);
+    filled.certain = is_certain(contact, margin);
     filled.gradients.clear();  // of an earlier message
     if (has_gradients) {
       add_gradients(filled);
