@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "src/accuracy/number_text.hpp"
@@ -109,6 +110,17 @@ std::string sentence_of(const QuestionReport& question) {
 }
 
 }  // namespace
+
+QuestionReport report_of(const std::string& question, const std::vector<SettingOutcome>& outcomes,
+                         std::optional<double> noise, std::optional<double> frame_time) {
+  QuestionReport report;
+  report.question = question;
+  std::copy_if(outcomes.begin(), outcomes.end(), std::back_inserter(report.outcomes),
+               [&](const SettingOutcome& outcome) { return outcome.setting.question == question; });
+  report.dominated = dominated(report.outcomes);
+  report.recommendation = recommend(report.outcomes, noise, frame_time);
+  return report;
+}
 
 bool AccuracyReport::all_bounds_hold() const {
   for (const QuestionReport& question : questions) {

@@ -19,6 +19,13 @@ struct QuestionReport {
   Recommendation recommendation;
 };
 
+/// What was measured of one question, and what to take for it.
+/// @param outcomes of all questions
+/// @param noise      as recommend() has it
+/// @param frame_time likewise
+QuestionReport report_of(const std::string& question, const std::vector<SettingOutcome>& outcomes,
+                         std::optional<double> noise, std::optional<double> frame_time);
+
 /// All that was found out about the fibres of a file.
 struct AccuracyReport {
   std::string file;

@@ -114,21 +114,11 @@ SettingChoices choices_of(const AccuracyRequest& request, const std::vector<Fibe
 /// Sorts what was measured by questions, in the order in which they are reported.
 std::vector<QuestionReport> questions_of(const AccuracyRequest& request,
                                          const AccuracyReport& report,
-                                         std::vector<SettingOutcome> outcomes) {
+                                         const std::vector<SettingOutcome>& outcomes) {
   std::vector<QuestionReport> questions;
   for (auto question = request.questions.rbegin(); question != request.questions.rend();
        ++question) {
-    QuestionReport of_question;
-    of_question.question = *question;
-    for (SettingOutcome& outcome : outcomes) {
-      if (outcome.setting.question == *question) {
-        of_question.outcomes.push_back(std::move(outcome));
-      }
-    }
-    of_question.dominated = dominated(of_question.outcomes);
-    of_question.recommendation =
-        recommend(of_question.outcomes, report.track.noise, report.frame_time);
-    questions.push_back(std::move(of_question));
+    questions.push_back(report_of(*question, outcomes, report.track.noise, report.frame_time));
   }
   return questions;
 }
@@ -156,7 +146,7 @@ AccuracyReport measure(const AccuracyRequest& request) {
   }
   const SettingChoices choices = choices_of(request, frames, report);
   const std::vector<AnswerSetting> settings = settings_of(request.questions, choices);
-  SettingMeasurement measurement =
+  const SettingMeasurement measurement =
       measure_settings(frames, settings, TimeBudget((1.0 - survey_part) * request.seconds),
                        request.answers, [&](const std::string& text) { progress.show(text); });
   report.measured_frames = measurement.frames;
@@ -167,7 +157,7 @@ AccuracyReport measure(const AccuracyRequest& request) {
   }
   report.left_out.insert(report.left_out.end(), measurement.left_out.begin(),
                          measurement.left_out.end());
-  report.questions = questions_of(request, report, std::move(measurement.outcomes));
+  report.questions = questions_of(request, report, measurement.outcomes);
   return report;
 }
 

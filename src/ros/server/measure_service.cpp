@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "fiber_proximity/io/fiber_file.hpp"
-#include "src/accuracy/recommendation.hpp"
+#include "src/accuracy/accuracy_report.hpp"
 #include "src/accuracy/setting_measurement.hpp"
 
 namespace fiber_proximity_ros {
@@ -140,20 +140,19 @@ bool MeasureService::measure(MeasureSettings::Request& request,
     const std::vector<std::string> questions = questions_of(material.asked.type);
     const std::vector<fiber::AnswerSetting> settings = fiber::settings_of(questions, choices);
     const fiber::SettingMeasurement measured =
-        fiber::measure_settings(frames, settings, budget, max_answers, [](const std::string&) {});
+        fiber::measure_settings(frames, settings, budget, max_answers, [this](const std::string&) {
+          if (is_ending_) {
+            throw std::runtime_error("the node ends");
+          }
+        });
     for (const std::string& question : questions) {
-      std::vector<fiber::SettingOutcome> outcomes;
-      for (const fiber::SettingOutcome& outcome : measured.outcomes) {
-        if (outcome.setting.question == question) {
-          outcomes.push_back(outcome);
-        }
-      }
-      const std::vector<bool> dominated = fiber::dominated(outcomes);
-      for (std::size_t i = 0; i < outcomes.size(); ++i) {
-        response.settings.push_back(setting_message(outcomes[i], dominated[i]));
+      const fiber::QuestionReport report =
+          fiber::report_of(question, measured.outcomes, noise, std::nullopt);
+      for (std::size_t i = 0; i < report.outcomes.size(); ++i) {
+        response.settings.push_back(setting_message(report.outcomes[i], report.dominated[i]));
       }
       response.questions.push_back(question);
-      response.recommendations.push_back(fiber::recommend(outcomes, noise, std::nullopt).sentence);
+      response.recommendations.push_back(report.recommendation.sentence);
     }
     response.frames = static_cast<std::uint32_t>(measured.frames);
     response.success = 1;
