@@ -53,10 +53,10 @@ void ProximityServer::process(bool may_repeat) {
     const bool has_newcomers = std::exchange(has_newcomers_, false);
     const bool shows_fibers = changes.fibers || (has_newcomers && scene_.fibers.is_fresh());
     pipeline_.answer({changes.fibers, shows_fibers, time_before, stopwatch});
-    measure_service_.offer(scene_.fibers.message(), settings_.query());
   } else if (changes.environment && scene_.fibers.is_fresh()) {
     pipeline_.answer_about_environment();
   }
+  measure_service_.offer(scene_.fibers.message(), settings_.query());
   if (scene_.is_waiting()) {
     retry_timer_.start();
   } else {
@@ -67,7 +67,6 @@ void ProximityServer::process(bool may_repeat) {
 void ProximityServer::tick() {
   clock_.look();
   process(true);
-  measure_service_.offer(scene_.fibers.message(), settings_.query());
   pipeline_.tick();
 }
 
