@@ -5,14 +5,14 @@
 #include <memory>
 
 #include "benchmark/accuracy_settings.hpp"
-#include "benchmark/answer_errors.hpp"
 #include "benchmark/commands.hpp"
 #include "benchmark/options.hpp"
 #include "benchmark/report.hpp"
 #include "benchmark/scene_options.hpp"
-#include "benchmark/statistics.hpp"
 #include "fiber_proximity/query/engine.hpp"
 #include "fiber_proximity/scenes/scene.hpp"
+#include "src/accuracy/answer_errors.hpp"
+#include "src/accuracy/statistics.hpp"
 #include "src/tools/progress.hpp"
 
 namespace fiber {
@@ -109,11 +109,11 @@ class Accuracy {
                         "setting",
                         {"detect [ms]", "detect_ms"},
                         {"p99 [ms]", "detect_p99_ms"},
-                        "late",
+                        {"late [% of the deadline]", "late", 100.0},
                         "pairs",
                         "missed",
                         "false",
-                        "found",
+                        {"found [%]", "found", 100.0},
                         {"error [m]", "error"},
                         {"bound [m]", "bound"}},
                        request_.json);

@@ -9,9 +9,9 @@
 #include "benchmark/options.hpp"
 #include "benchmark/report.hpp"
 #include "benchmark/scene_options.hpp"
-#include "benchmark/statistics.hpp"
 #include "benchmark/swaying.hpp"
 #include "fiber_proximity/scenes/scene.hpp"
+#include "src/accuracy/statistics.hpp"
 #include "src/query/run_tree_engine.hpp"
 #include "src/tools/progress.hpp"
 

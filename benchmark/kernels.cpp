@@ -8,7 +8,7 @@
 #include "benchmark/kernels/pair_times.hpp"
 #include "benchmark/options.hpp"
 #include "benchmark/report.hpp"
-#include "benchmark/statistics.hpp"
+#include "src/accuracy/statistics.hpp"
 #include "src/tools/progress.hpp"
 
 namespace fiber {

@@ -9,9 +9,9 @@
 #include "benchmark/agreement.hpp"
 #include "benchmark/copies.hpp"
 #include "benchmark/peers/peer.hpp"
-#include "benchmark/statistics.hpp"
 #include "benchmark/swapped_places.hpp"
 #include "fiber_proximity/scenes/scene.hpp"
+#include "src/accuracy/statistics.hpp"
 #include "src/tools/progress.hpp"
 
 namespace fiber {

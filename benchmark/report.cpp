@@ -17,13 +17,13 @@ std::ostream& begin_cell(const TableColumn& column, const BenchmarkRow& row) {
                    << std::setw(std::max(heading + 2, is_text ? text_width : number_width));
 }
 
-void print_value(std::ostream& stream, const BenchmarkRow& value) {
+void print_value(std::ostream& stream, const BenchmarkRow& value, double factor) {
   if (value.is_string()) {
     stream << value.get<std::string>();
   } else if (value.is_null()) {
     stream << '-';
   } else {
-    stream << value.get<double>();
+    stream << factor * value.get<double>();
   }
 }
 
@@ -42,7 +42,7 @@ void RowPrinter::print(const BenchmarkRow& row) {
     std::cout << '\n';
   }
   for (const TableColumn& column : columns_) {
-    print_value(begin_cell(column, row), row.at(column.field));
+    print_value(begin_cell(column, row), row.at(column.field), column.factor);
   }
   std::cout << std::endl;
 }

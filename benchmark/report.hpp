@@ -11,13 +11,16 @@ namespace fiber {
 using BenchmarkRow = nlohmann::ordered_json;
 using ReportRow = std::function<void(const BenchmarkRow&)>;
 
-/// A column of a table: its heading and the field of the rows that it shows.
+/// A column of a table: its heading, the field of the rows that it shows, and what numbers are
+/// multiplied with for the unit of the heading.
 struct TableColumn {
   TableColumn(const char* field_name) : heading(field_name), field(field_name) {}
-  TableColumn(const char* text, const char* field_name) : heading(text), field(field_name) {}
+  TableColumn(const char* text, const char* field_name, double unit_factor = 1.0)
+      : heading(text), field(field_name), factor(unit_factor) {}
 
   std::string heading;
   std::string field;
+  double factor = 1.0;
 };
 
 /// Prints rows as they come: as JSON Lines, or as a table whose heading comes before the first row.

@@ -12,7 +12,7 @@
 
 #include "benchmark/options.hpp"
 #include "benchmark/report.hpp"
-#include "benchmark/statistics.hpp"
+#include "src/accuracy/statistics.hpp"
 
 namespace fiber {
 

@@ -6,9 +6,9 @@
 #include "benchmark/options.hpp"
 #include "benchmark/report.hpp"
 #include "benchmark/scene_options.hpp"
-#include "benchmark/statistics.hpp"
 #include "fiber_proximity/query/engine.hpp"
 #include "fiber_proximity/scenes/scene.hpp"
+#include "src/accuracy/statistics.hpp"
 #include "src/paper/engines/leaf_pretest.hpp"
 
 namespace fiber {

@@ -3,7 +3,7 @@
 include(cmake/peers.cmake)
 fiber_proximity_tool(fiber_bench benchmark/fiber_bench.cpp
   benchmark/accuracy.cpp benchmark/accuracy_settings.cpp benchmark/agreement.cpp
-  benchmark/answer_errors.cpp benchmark/coherence.cpp benchmark/copies.cpp
+  benchmark/coherence.cpp benchmark/copies.cpp
   benchmark/environment.cpp benchmark/environment/arm.cpp benchmark/environment/camera_cloud.cpp
   benchmark/environment/capsule_mesh.cpp benchmark/environment/cell.cpp
   benchmark/environment/cell_difference.cpp benchmark/environment/fcl_checker.cpp
@@ -20,7 +20,7 @@ fiber_proximity_tool(fiber_bench benchmark/fiber_bench.cpp
   benchmark/sim/tip_truth.cpp benchmark/sim/validation.cpp benchmark/sim/xpbd_rod.cpp
   benchmark/simulate.cpp benchmark/stages.cpp benchmark/swapped_places.cpp
   benchmark/swaying.cpp)
-target_link_libraries(fiber_bench fiber_bench_peers validation_geometry validation_sim
+target_link_libraries(fiber_bench fiber_proximity_accuracy fiber_bench_peers validation_geometry validation_sim
   fiber_proximity_paper fiber_proximity_scenes fiber_proximity_environment fcl)
 if(FIBER_PROXIMITY_BUILD_ROS)
   target_sources(fiber_bench PRIVATE benchmark/latency.cpp benchmark/obstacle_latency.cpp)

@@ -45,6 +45,7 @@ add_message_files(FILES
   ObstacleArray.msg
   PredictedContact.msg
   QueryShape.msg
+  SettingMeasurement.msg
   SimulationParameter.msg
   Statistics.msg
   TimeToContact.msg
@@ -56,6 +57,7 @@ add_service_files(FILES
   CheckFibers.srv
   CompareWithFcl.srv
   DetachFiber.srv
+  MeasureSettings.srv
   QueryProximity.srv
   SetSimulationParameters.srv
   StepSimulation.srv

@@ -29,6 +29,7 @@ add_library(fiber_proximity_rviz SHARED
   src/rviz/fiber_renderable.cpp
   src/rviz/legend_display.cpp
   src/rviz/parameter_form.cpp
+  src/rviz/settings_chart.cpp
   src/rviz/text_overlay.cpp
   src/rviz/view_fit.cpp
 )

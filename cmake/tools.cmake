@@ -31,3 +31,16 @@ add_library(fiber_proximity_query_tools OBJECT
   src/tools/candidate_checker.cpp src/tools/fiber_match.cpp src/tools/query_options.cpp)
 target_link_libraries(fiber_proximity_query_tools PUBLIC fiber_proximity_command_line fiber_proximity_environment)
 fiber_proximity_compile_tool(fiber_proximity_query_tools)
+
+# What fiber_query and the node measure of settings, and fiber_bench of answers.
+add_library(fiber_proximity_accuracy STATIC
+  src/accuracy/accuracy_picture.cpp src/accuracy/accuracy_report.cpp
+  src/accuracy/answer_errors.cpp src/accuracy/answer_setting.cpp
+  src/accuracy/frame_order.cpp src/accuracy/frame_survey.cpp src/accuracy/noise.cpp
+  src/accuracy/recommendation.cpp src/accuracy/resampling.cpp
+  src/accuracy/setting_measurement.cpp src/accuracy/setting_run.cpp
+  src/accuracy/svg_drawing.cpp)
+target_link_libraries(fiber_proximity_accuracy PUBLIC
+  fiber_proximity nlohmann_json::nlohmann_json fiber_proximity_options)
+set_target_properties(fiber_proximity_accuracy PROPERTIES POSITION_INDEPENDENT_CODE ON)
+fiber_proximity_parse_once(fiber_proximity_accuracy)

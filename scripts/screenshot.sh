@@ -1,21 +1,23 @@
 #!/usr/bin/env bash
 # Starts a launch file of this package, which must take rviz_args, in a display of its own, without a
 # graphics card, and saves what rviz shows soon after fibres are to be seen there.
-#   scripts/screenshot.sh [--after SECONDS] [--verbose] LAUNCH_FILE PICTURE [NAME:=VALUE...]
+#   scripts/screenshot.sh [--after SECONDS] [--panels] [--verbose] LAUNCH_FILE PICTURE [NAME:=VALUE...]
 #   scripts/screenshot.sh launch/hair.launch docs/hair.png
 #   scripts/screenshot.sh launch/tracker_example.launch docs/tracker.png
 #     --after SECONDS   default: 2
+#     --panels          with rviz's panels, not the scene alone
 set -euo pipefail
 # shellcheck source=scripts/environment.sh
 source "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
 # shellcheck source=scripts/processes.sh
 source "$(dirname "${BASH_SOURCE[0]}")/processes.sh"
 
-usage="usage: scripts/screenshot.sh [--after SECONDS] [--verbose] LAUNCH_FILE PICTURE [NAME:=VALUE...]"
+usage="usage: scripts/screenshot.sh [--after SECONDS] [--panels] [--verbose] LAUNCH_FILE PICTURE [NAME:=VALUE...]"
 refuse() {
   echo "screenshot.sh: $1; $usage" >&2
   exit 2
 }
+rviz_args=--fullscreen
 after=2  # rviz may show them before its window fills the screen
 while [[ ${1-} == --* ]]; do
   case "$1" in
@@ -24,6 +26,7 @@ while [[ ${1-} == --* ]]; do
       after=$2
       shift
       ;;
+    --panels) rviz_args= ;;
     --verbose) be_verbose ;;
     *) refuse "unknown option '$1'" ;;
   esac
@@ -42,7 +45,7 @@ build_package fiber_proximity_demo
 use_devel_space
 
 start_virtual_display
-start_launch_file "$launch_file" rviz_args:="--fullscreen --splash-screen ''" "$@"
+start_launch_file "$launch_file" rviz_args:="$rviz_args --splash-screen ''" "$@"
 wait_for "rviz showed fibres" roslaunch "$launch" picture_shows_fibers
 sleep "$after"
 take_picture || fail "no picture" import

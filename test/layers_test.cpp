@@ -24,7 +24,7 @@ const std::vector<std::vector<std::string>> layers{
     {"hierarchy"},
     {"query", "io"},
     {"paper", "scenes", "environment", "compare", "mpi"},
-    {"environment/scene", "sim"},
+    {"environment/scene", "sim", "accuracy"},
     {"sim/scene"},
     {"tools", "python", "ros"},
     {"ros/support"},

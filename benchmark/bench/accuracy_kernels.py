@@ -4,9 +4,9 @@ import math
 import statistics
 
 from .hard_families import GROUPS, KINDS, group_and_kind
-from .plot import COLORS, legend_below, panels, save
+from .plot import COLORS, PAGE_WIDTH, grid, name_ticks, save
 from .runs import Limits, Run, rows_of_all
-from .tables import markdown, write_csv, write_table
+from .tables import markdown, read_csv, write_csv, write_table
 
 COUNTS = ("pairs", "answered", "contacts", "false", "missed", "plain_false", "plain_missed",
           "outside_bounds", "not_finite", "no_answer", "ended")
@@ -14,18 +14,23 @@ LARGEST = ("error", "error_units", "relative_error")
 FULL = "--pairs 1000 --repeats 11"
 QUICK = "--pairs 100 --repeats 5"
 FAMILY_LIMIT_S = 600.0
-MIN_UNITS = 0.05  # an error of 0 stands at the lower edge of the figure
-MAX_UNITS = 1e18  # one beyond double at the upper
+EXACT_UNITS = 0.01  # where the figure has errors of 0
+INFINITE_UNITS = 1e18  # and those beyond double
 KIND_KERNELS = ("robust", "exact", "textbook", "fcl_capsule", "fcl_gjk", "bullet", "cgal")
 
 
 def measure_kernels(tool, out, quick):
-    """Writes kernels.csv, .svg, .md and kernel_kinds.md; the table by groups."""
+    """Writes kernels.csv."""
     run = Run("kernels on hard pairs", f"{{tool}} kernels {QUICK if quick else FULL} --seed 1 --json")
-    rows = [with_place(row) for row in rows_of_all(tool, [run], Limits(stage=FAMILY_LIMIT_S), out)[0]]
-    write_csv(rows, out / "kernels.csv")
+    rows, = rows_of_all(tool, [run], Limits(stage=FAMILY_LIMIT_S), out)
+    write_csv([with_place(row) for row in rows], out / "kernels.csv")
+
+
+def report_kernels(out):
+    """Writes kernels.svg, kernels.md and kernel_kinds.md from kernels.csv. The table by groups."""
+    rows = read_csv(out / "kernels.csv")
     groups = summaries(rows, "group")
-    draw_kernels(groups, out / "kernels.svg")
+    save(kernels_figure(groups), out / "kernels.svg")
     (out / "kernel_kinds.md").write_text(kind_table(summaries(rows, "kind")))
     return write_table(out / "kernels.md", GROUP_COLUMNS,
                        [found for group in GROUPS for (of, _), found in groups.items() if of == group])
@@ -49,8 +54,8 @@ def summaries(rows, key):
 
 def summary(rows):
     """Counts add up, of errors the largest counts; p50 is the median family's, p99 the slowest's."""
-    p50 = [row["p50_ns"] for row in rows if row["p50_ns"] is not None]
-    p99 = [row["p99_ns"] for row in rows if row["p99_ns"] is not None]
+    p50 = [row["p50_ns"] for row in rows if row.get("p50_ns") is not None]
+    p99 = [row["p99_ns"] for row in rows if row.get("p99_ns") is not None]
     counts = {key: sum(row[key] for row in rows) for key in COUNTS}
     return {**counts, **{key: max(row[key] for row in rows) for key in LARGEST},
             "unanswered": counts["pairs"] - counts["answered"],
@@ -92,20 +97,21 @@ GROUP_COLUMNS = [("group", "group"), ("kernel", lambda found: f"`{found['kernel'
                  ("no answer", share_of("unanswered"))]
 
 
-def draw_kernels(groups, path):
-    """A panel per group; each mark is a kernel, with its wrong decisions."""
-    figure, axes = panels(len(GROUPS), 4.0 * len(GROUPS), 4.6)
-    for group, axis in zip(GROUPS, axes):
+def kernels_figure(groups):
+    """A row per group; each mark is a kernel, with its wrong decisions."""
+    figure, axes = grid(len(GROUPS), 1, PAGE_WIDTH, 2.1 * len(GROUPS))
+    for group, axis in zip(GROUPS, axes.flat):
         for (of, kernel), found in groups.items():
             if of == group and found["p50_ns"] and found["answered"]:
-                axis.scatter(found["p50_ns"], min(max(found["error_units"], MIN_UNITS), MAX_UNITS),
+                axis.scatter(found["p50_ns"], min(found["error_units"], INFINITE_UNITS) or EXACT_UNITS,
                              color=COLORS[kernel], label=mark_label(found), s=28,
                              marker="s" if found["missed"] else "o")
-        axis.set(xscale="log", yscale="log", ylim=(MIN_UNITS / 3, MAX_UNITS * 3), title=group,
-                 xlabel="time per pair, median [ns]")
-        legend_below(axis)
-    axes[0].set_ylabel("largest error [ε·M], 0 at the lower edge")
-    save(figure, path)
+        name_ticks(axis, range(0, 16, 3), {EXACT_UNITS: "exact", INFINITE_UNITS: "∞"})
+        axis.set(xscale="log", xlim=(8, 3e4), ylim=(EXACT_UNITS / 5, INFINITE_UNITS * 5), title=group,
+                 ylabel="largest error [ε·M]")
+        axis.legend(loc="center left", bbox_to_anchor=(1.01, 0.5))
+    axes[-1, 0].set_xlabel("time per pair, median [ns]; squares have missed contacts")
+    return figure
 
 
 def mark_label(found):

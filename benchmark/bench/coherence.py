@@ -4,7 +4,7 @@ import dataclasses
 
 from .plot import panels, save
 from .runs import Limits, Run, experiment, rows_of_all
-from .tables import rounded, scene_title, shown, write_csv, write_table
+from .tables import read_csv, rounded, scene_title, shown, write_csv, write_table
 
 HEADS = ("charming", "curly", "windy", "longish")
 OTHERS = ("tress_a", "tress_b", "cloth", "soup")
@@ -47,6 +47,15 @@ def run(tool, out, quick):
     plan = QUICK if quick else FULL
     scenes = [with_ratios(rows) for rows in rows_of_all(tool, plan.runs(), Limits(stage=plan.limit_s), out)]
     write_csv([row for rows in scenes for row in rows], out / "coherence.csv")
+    return report(out, quick)
+
+
+def report(out, _quick):
+    """Writes coherence.svg and coherence.md from coherence.csv. The table."""
+    of_scene = {}  # its rows, one a skin
+    for row in read_csv(out / "coherence.csv"):
+        of_scene.setdefault(scene_title(row), []).append(row)
+    scenes = list(of_scene.values())
     draw_skins(scenes, out / "coherence.svg")
     best = [{**min(rows, key=lambda row: row["cycle_ms"]), "without_ms": without_skin_ms(rows)} for rows in scenes]
     return write_table(out / "coherence.md", COLUMNS, best)
@@ -72,5 +81,5 @@ def draw_skins(scenes, path):
     axis.set(xlabel="skin [mean segment lengths]", ylabel="time per frame, that without skin = 1",
              yscale="log",
              title=f"{first['motion']:g} segment lengths per frame, {first['threads']} thread(s)")
-    axis.legend()
+    axis.legend(loc="center left", bbox_to_anchor=(1.01, 0.5))
     save(figure, path)

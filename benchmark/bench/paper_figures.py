@@ -1,7 +1,7 @@
 """Draws Fig. 4 to 7 of the paper, and what they leave open, from measured runs."""
 
 from .paper_plan import HIERARCHIES, MODELS
-from .plot import COLORS, grouped_bars, panels, save
+from .plot import COLORS, grouped_bars, legend_below, mosaic, panels, save, share_legend
 
 
 def lookup(results):
@@ -16,19 +16,20 @@ def lookup(results):
 
 def draw_figure4(results, limit_s, path):
     value = lookup(results)
-    figure, axes = panels(3, 13.0)
-    for axis, (column, title) in zip(axes, [("update_ms", "update [ms]"),
-                                            ("detect_ms", "all collisions [ms]"),
-                                            ("first_ms", "first collision [ms]")]):
-        grouped_bars(axis, MODELS, HIERARCHIES, value(column), limit=limit_s * 1e3)
-        axis.set_title(title)
-    axes[0].legend(ncols=2)
-    figure.supxlabel(f"hatched: over the limit of {limit_s:g} s", fontsize=7)
+    titles = {"update_ms": "update [ms]",
+              "detect_ms": f"all collisions [ms]; hatched: over the limit of {limit_s:g} s",
+              "first_ms": "first collision [ms]"}
+    figure, axes = mosaic([[column] for column in titles] + [["legend"]], [2.4, 2.4, 2.4, 0.4])
+    for column, title in titles.items():
+        grouped_bars(axes[column], MODELS, HIERARCHIES, value(column), limit=limit_s * 1e3)
+        axes[column].set_title(title)
+    share_legend(axes, len(HIERARCHIES))
     save(figure, path)
 
 
 def draw_figure5(results, path):
-    figure, (times, counts, volumes) = panels(3, 13.0)
+    figure, axes = mosaic([["times", "counts"], ["volumes", "volumes"], ["legend", "legend"]], [2.6, 2.6, 0.4])
+    times, counts, volumes = (axes[name] for name in ("times", "counts", "volumes"))
     tress_b = {result["engine"]: result for result in results if result["scene"] == "tress_b"}
     for axis, columns, title in [
         (times, ["update_ms", "detect_ms"], "tress B: times [ms]"),
@@ -37,14 +38,13 @@ def draw_figure5(results, path):
         grouped_bars(axis, columns, HIERARCHIES,
                      lambda column, engine: tress_b[engine].get(column, 0))
         axis.set_title(title)
-    times.legend(ncols=2)
     for result in results:
         if result.get("mean_volumes"):
             volumes.plot(result["mean_volumes"], label=result["engine"], marker=".",
                          color=COLORS[result["engine"]])
     volumes.set(title="tress A: mean cage volume [m³]", xlabel="level (0 is the root)",
                 yscale="log")
-    volumes.legend(ncols=2)
+    share_legend(axes, len(HIERARCHIES))
     save(figure, path)
 
 
@@ -93,7 +93,7 @@ def draw_order(results, path):
     grouped_bars(axis, MODELS, ["AL-threaded", *HIERARCHIES], ratio)
     axis.set_title("all collisions: fibres in random order / as styled")
     axis.axhline(1.0, color="black", linewidth=0.6)
-    axis.legend(ncols=3)
+    legend_below(axis, columns=6)
     save(figure, path)
 
 

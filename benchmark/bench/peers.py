@@ -3,13 +3,14 @@
 import dataclasses
 
 from .climb import Climb, Size, climb_all
-from .plot import grouped_bars, panels, save
+from .plot import COLORS, PAGE_WIDTH, grid, save
 from .runs import experiment
-from .tables import scene_title, significant, write_csv, table
+from .tables import read_csv, scene_title, significant, write_csv, write_table
 
 EMBREE = ("embree_low", "embree_medium", "embree_refit")
 OTHERS = ("AL", "AS", "DL-20", "cgal", "fcl", "fcl_naive", "bullet")
 ENGINES = ("run_tree", "AL", "AS", "DL-20", *EMBREE, "cgal", "fcl", "fcl_naive", "bullet")
+MARKERS = {**dict.fromkeys(EMBREE, "s"), "cgal": "^", "fcl": "D", "fcl_naive": "d", "bullet": "v"}  # others: circles
 THREADS = 2
 SCENES = ("tress_a", "tress_b", "charming", "curly", "windy", "longish", "cloth", "soup")
 
@@ -36,11 +37,20 @@ def run(tool, out, quick):
     plan = QUICK if quick else FULL
     found = climb_all(tool, plan.climbs(), plan.limit_s, out)
     write_csv([row for _, rows in found for row in rows], out / "peers.csv")
-    scenes = [Compared(climb, rows) for climb, rows in found]
-    draw_cycles(scenes, plan.limit_s, out / "peers.svg")
-    text = table(COLUMNS, scenes) + EXPLANATION
-    (out / "peers.md").write_text(text)
-    return text
+    return report(out, quick)
+
+
+def report(out, quick):
+    """Writes peers.svg and peers.md from peers.csv. The table."""
+    rows = read_csv(out / "peers.csv")
+    scenes = [Compared(climb, rows_of(climb, rows)) for climb in (QUICK if quick else FULL).climbs()]
+    save(factors_figure(scenes), out / "peers.svg")
+    return write_table(out / "peers.md", COLUMNS, scenes, EXPLANATION)
+
+
+def rows_of(climb, rows):
+    scales = [size.scale for size in climb.sizes]
+    return [row for row in rows if row["scene"] == climb.scene and row["scale"] in scales]
 
 
 class Compared:
@@ -58,6 +68,12 @@ class Compared:
     def own_ms(self):
         cycle_ms = self.own("cycle_ms")
         return significant(cycle_ms) if cycle_ms else "over the limit"
+
+    def label(self):
+        if not self.own("cycle_ms"):
+            return f"{self.title}:\nrun_tree takes too long"
+        segments = f"{self.own('segments'):,}".replace(",", " ")
+        return f"{self.title}: {segments} segments,\nrun_tree takes {self.own_ms()} ms"
 
     def last_row(self, engine):
         """The engine's row at the largest scale it came to; None if there is none."""
@@ -92,13 +108,27 @@ EXPLANATION = (f"\nThe cycle of each engine (update and all collisions, median o
                "take longer than the limit; the ratio is that of the scene at scale s.\n")
 
 
-def draw_cycles(scenes, limit_s, path):
-    groups = {scene.title: scene.full for scene in scenes}
-    figure, (axis,) = panels(1, 11.0, 4.0)
-    grouped_bars(axis, list(groups), ENGINES,
-                 lambda group, engine: groups[group].get(engine, {}).get("cycle_ms"),
-                 limit=limit_s * 1e3)
-    axis.set(ylabel="update and all collisions [ms]",
-             title=f"{THREADS} threads; hatched: left out, over {limit_s:g} s")
-    axis.legend(ncols=len(ENGINES), loc="upper center", bbox_to_anchor=(0.5, -0.22))
-    save(figure, path)
+def factors_figure(scenes):
+    """A row per scene, and in it a mark per engine: its cycle in units of that of run_tree."""
+    figure, axes = grid(1, 1, PAGE_WIDTH, 0.5 * len(scenes) + 1.3)
+    axis = axes[0, 0]
+    for index, engine in enumerate(ENGINES[1:]):
+        found = [(row["times_run_tree"], place, row in scene.full.values()) for place, scene in enumerate(scenes)
+                 for row in [scene.last_row(engine)] if row]
+        offset = 0.085 * (index - (len(ENGINES) - 2) / 2)  # so that no mark of a scene covers another
+        axis.scatter([factor for factor, _, _ in found], [place + offset for _, place, _ in found],
+                     edgecolors=COLORS[engine], marker=MARKERS.get(engine, "o"), s=24, label=engine, zorder=3,
+                     facecolors=[COLORS[engine] if is_full else "white" for _, _, is_full in found])
+    axis.axvline(1.0, color=COLORS["run_tree"], label="run_tree")
+    axis.set_yticks(range(len(scenes)), [scene.label() for scene in scenes])
+    axis.set_ylim(len(scenes) - 0.5, -0.5)  # the first on top
+    axis.grid(axis="y", visible=False)
+    for place in range(1, len(scenes)):
+        axis.axhline(place - 0.5, color="0.85", linewidth=0.6)
+    axis.set(xscale="log", title="update and all collisions, in units of the time of run_tree; left is fast")
+    factors = (1, 2, 5, 10, 20, 50, 100, 200, 500)
+    axis.set_xticks(factors, [f"{factor}×" for factor in factors])
+    axis.set_xticks([], minor=True)
+    axis.set_xlabel(f"{THREADS} threads; hollow: at a smaller scale, as the engine would take too long at this one")
+    axis.legend(loc="center left", bbox_to_anchor=(1.01, 0.5))
+    return figure

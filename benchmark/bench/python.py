@@ -1,9 +1,8 @@
 """What calls from Python cost beside C++, and the same questions asked of what else Python has."""
 
-from .machine import describe_machine
-from .plot import panels, save
+from .plot import mosaic, save, share_legend
 from .runs import Limits, Run, experiment, rows_of_all
-from .tables import significant, table, write_csv
+from .tables import read_csv, significant, table, write_csv
 
 JOBS = {"contacts": "contacts within 5 mm", "closest": "the closest pair of two cables",
         "check": "1000 candidates of ten cables: which are free", "nearest": "the nearest segments of 10 000 points"}
@@ -19,14 +18,19 @@ def run(tool, out, quick):
     runs = [Run(f"calls{more}", f"{{python}} -B {{scripts}}/calls.py{more} --tool {{tool}} --json"),
             *(Run(f"{job}{more}", f"{{python}} -B {{scripts}}/peers.py {job}{more}") for job in JOBS)]
     calls, *found = rows_of_all(tool, runs, Limits(stage=ROW_LIMIT_S), out)
-    peers = [row for rows in found for row in rows]
     write_csv(calls, out / "calls.csv")
-    write_csv(peers, out / "peers.csv")
+    write_csv([row for rows in found for row in rows], out / "peers.csv")
+    return report(out, quick)
+
+
+def report(out, quick):
+    """Writes peers.svg and peers.md from peers.csv. The table."""
     questions = {}  # (job, segments) → side → row
-    for row in peers:
+    for row in read_csv(out / "peers.csv"):
         questions.setdefault((row["job"], row["segments"]), {})[row["side"]] = row
     draw(questions, out / "peers.svg")
-    text = f"{table(COLUMNS, questions.values())}\n`scripts/bench.sh python{more}`, {describe_machine()}"
+    text = (f"{table(COLUMNS, questions.values())}\n`scripts/bench.sh python{' --quick' if quick else ''}`, "
+            f"{(out / 'machine.txt').read_text()}")
     (out / "peers.md").write_text(text)
     return text
 
@@ -56,13 +60,14 @@ COLUMNS = [("question", lambda sides: JOBS[sides[OWN]["job"]]), ("segments", lam
 def draw(questions, path):
     """How time grows with the number of segments, for the questions that were asked of several numbers."""
     jobs = [job for job in JOBS if len({segments for of, segments in questions if of == job}) > 1]
-    figure, axes = panels(len(jobs), 8)
-    for axis, job in zip(axes, jobs):
+    figure, axes = mosaic([jobs, ["legend"] * len(jobs)], [3.2, 0.3])
+    for job in jobs:
+        axis = axes[job]
         for side in SIDES:
             points = [(segments, sides[side]["ms"]) for (of, segments), sides in questions.items()
                       if of == job and side in sides]
             if points:
                 axis.plot(*zip(*points), marker="o", markersize=3, color=COLORS[side], label=side)
         axis.set(xscale="log", yscale="log", xlabel="segments", ylabel="time [ms]", title=JOBS[job])
-    axes[0].legend()
+    share_legend(axes, len(SIDES))
     save(figure, path)

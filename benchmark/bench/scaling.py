@@ -4,14 +4,16 @@ import dataclasses
 import math
 
 from .climb import Climb, Size, climb_all
-from .plot import COLORS, panels, save
+from .plot import COLORS, legend_below, mosaic, save
 from .runs import experiment
-from .tables import significant, write_csv, write_table
+from .tables import read_csv, significant, write_csv, write_table
 
 SCENE = "curly"
 LOCK = 0.0022  # scale of a lock of 103 hairs, 10 300 segments
 ENGINES = ("run_tree", "AL", "embree_refit")
 THREADS = (1, 2)
+STYLES = {1: {"linestyle": "--", "marker": "o", "markerfacecolor": "white"},
+          2: {"linestyle": "-", "marker": "o"}}  # by threads
 
 
 def sized(scale, copies):
@@ -51,11 +53,16 @@ def run(tool, out, quick):
     rows = [{"family": family, "most_threads": climb.threads, **row}
             for family, (climb, rows) in zip(plan.families(), found) for row in rows]
     write_csv(rows, out / "scaling.csv")
+    return report(out, quick)
+
+
+def report(out, _quick):
+    """Writes scaling.svg and scaling.md from scaling.csv. The table."""
     series = {}  # (family, engine, most_threads) → its rows that were measured, by size
-    for row in rows:
+    for row in read_csv(out / "scaling.csv"):
         if "cycle_ms" in row:
             series.setdefault((row["family"], row["engine"], row["most_threads"]), []).append(row)
-    draw_growth(series, out / "scaling.svg")
+    save(growth_figure(series), out / "scaling.svg")
     lines = [{"found": found, "one_thread": series.get((family, engine, 1), [])}
              for (family, engine, _), found in series.items()]
     return write_table(out / "scaling.md", COLUMNS, lines)
@@ -96,22 +103,25 @@ COLUMNS = [("scene", lambda line: line["found"][0]["family"]),
            ("exponent", lambda line: exponent_text(line["found"])), ("one thread / this", speedup)]
 
 
-def draw_growth(series, path):
+def growth_figure(series):
+    """A panel per family, a line per engine and number of threads; below, what all of them find."""
     families = list(dict.fromkeys(family for family, _, _ in series))
-    figure, axes = panels(len(families) + 1, 12.0, 3.6)
-    for family, axis in zip(families, axes):
+    below = "contacts per segment"
+    figure, axes = mosaic([families, [below] * len(families)], [4.0, 1.6])
+    for family in families:
         of_family = {key: found for key, found in series.items() if key[0] == family}
-        for (_, engine, threads), found in of_family.items():
-            axis.plot([row["segments"] for row in found], [row["cycle_ms"] for row in found],
-                      marker=".", linestyle="--" if threads == 1 else "-", color=COLORS[engine],
-                      label=f"{engine}, {threads} thread(s): n^{exponent_text(found)}")
-        axis.set(title=f"{family}: update and all collisions [ms]", xscale="log", yscale="log",
-                 xlabel="segments")
-        axis.legend()
+        axis = axes[family]
+        for (_, engine, max_threads), found in of_family.items():
+            if found[-1]["threads"] == max_threads:  # who cannot use a second thread has one line
+                axis.plot([row["segments"] for row in found], [row["cycle_ms"] for row in found],
+                          color=COLORS[engine], markersize=4, **STYLES[max_threads],
+                          label=f"{engine}, {max_threads} thread{'s' * (max_threads > 1)}: n^{exponent_text(found)}")
+        axis.set(title=f"{family}: update and all collisions [ms]", xscale="log", yscale="log", xlabel="segments, n")
+        legend_below(axis, gap=0.16, handlelength=5.0)
         # All engines find the same contacts.
         found = next(iter(of_family.values()))
-        axes[-1].plot([row["segments"] for row in found],
-                      [row["pairs"] / row["segments"] for row in found], marker=".", label=family)
-    axes[-1].set(title="contacts per segment", xscale="log", xlabel="segments", ylim=(0, None))
-    axes[-1].legend()
-    save(figure, path)
+        axes[below].plot([row["segments"] for row in found], [row["pairs"] / row["segments"] for row in found],
+                         marker=".", label=family)
+    axes[below].set(title=below, xscale="log", xlabel="segments, n", ylim=(0, None))
+    axes[below].legend(loc="center left", bbox_to_anchor=(1.01, 0.5))
+    return figure

@@ -1,6 +1,10 @@
 """Results as CSV and as tables in Markdown."""
 
 import csv
+import json
+
+# How write_csv writes what JSON writes in another way.
+WORDS = {"True": True, "False": False, "inf": float("inf")}
 
 
 def write_csv(results, path):
@@ -11,9 +15,23 @@ def write_csv(results, path):
         writer.writerows(results)
 
 
-def write_table(path, columns, rows):
-    """Writes table() to a file, and returns it."""
-    text = table(columns, rows)
+def read_csv(path):
+    """The rows that write_csv wrote, without the keys that have no value."""
+    with open(path, newline="") as file:
+        return [{key: value_of(cell) for key, cell in row.items() if cell} for row in csv.DictReader(file)]
+
+
+def value_of(cell):
+    """A number, a list or a truth value where the cell is one, otherwise its text."""
+    try:
+        return WORDS[cell] if cell in WORDS else json.loads(cell)
+    except ValueError:
+        return cell
+
+
+def write_table(path, columns, rows, explanation=""):
+    """Writes table() and what explains it to a file, and returns both."""
+    text = table(columns, rows) + explanation
     path.write_text(text)
     return text
 

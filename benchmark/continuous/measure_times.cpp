@@ -1,7 +1,7 @@
 #include "benchmark/continuous/measurements.hpp"
 #include "benchmark/kernels/chosen_families.hpp"
 #include "benchmark/kernels/motion_times.hpp"
-#include "benchmark/statistics.hpp"
+#include "src/accuracy/statistics.hpp"
 #include "validation/geometry/known_motions.hpp"
 
 namespace fiber {

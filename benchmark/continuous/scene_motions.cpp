@@ -6,9 +6,9 @@
 
 #include "benchmark/continuous/fiber_ways.hpp"
 #include "benchmark/processor_time.hpp"
-#include "benchmark/statistics.hpp"
 #include "fiber_proximity/query/engine.hpp"
 #include "fiber_proximity/scenes/scene.hpp"
+#include "src/accuracy/statistics.hpp"
 #include "src/query/contact_evaluator.hpp"
 
 namespace fiber {

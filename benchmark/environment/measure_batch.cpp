@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "benchmark/environment/measurements.hpp"
-#include "benchmark/statistics.hpp"
 #include "fiber_proximity/environment/check_fibers.hpp"
+#include "src/accuracy/statistics.hpp"
 #include "src/query/threads.hpp"
 #include "src/tools/progress.hpp"
 

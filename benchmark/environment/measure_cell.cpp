@@ -4,7 +4,7 @@
 
 #include "benchmark/environment/cell_difference.hpp"
 #include "benchmark/environment/measurements.hpp"
-#include "benchmark/statistics.hpp"
+#include "src/accuracy/statistics.hpp"
 #include "src/tools/progress.hpp"
 
 namespace fiber {

@@ -2,8 +2,8 @@
 
 #include "benchmark/environment/camera_cloud.hpp"
 #include "benchmark/environment/measurements.hpp"
-#include "benchmark/statistics.hpp"
 #include "fiber_proximity/environment/occupancy_octree.hpp"
+#include "src/accuracy/statistics.hpp"
 #include "src/tools/progress.hpp"
 
 namespace fiber {

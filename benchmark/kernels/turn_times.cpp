@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include "benchmark/kernels/child_process.hpp"
-#include "benchmark/statistics.hpp"
+#include "src/accuracy/statistics.hpp"
 
 namespace fiber {
 namespace {

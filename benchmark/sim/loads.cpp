@@ -5,8 +5,8 @@
 #include <thread>
 
 #include "benchmark/sim/effect_scene.hpp"
-#include "benchmark/statistics.hpp"
 #include "fiber_proximity/sim/attachment.hpp"
+#include "src/accuracy/statistics.hpp"
 #include "validation/sim/contact_scenes.hpp"
 
 namespace fiber {

@@ -6,7 +6,7 @@
 #include "benchmark/sim/measurements.hpp"
 #include "benchmark/sim/own_cables.hpp"
 #include "benchmark/sim/tip_truth.hpp"
-#include "benchmark/statistics.hpp"
+#include "src/accuracy/statistics.hpp"
 
 namespace fiber {
 namespace {

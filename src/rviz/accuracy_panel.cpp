@@ -12,6 +12,7 @@ namespace fiber_proximity_rviz {
 namespace {
 
 constexpr int refresh_ms = 100;
+constexpr double measuring_time = 10.0;  // [s]
 
 double now() { return ros::WallTime::now().toSec(); }
 
@@ -20,6 +21,16 @@ std::string set_parameters(const std::string& service, const dynamic_reconfigure
   dynamic_reconfigure::Reconfigure request;
   request.request.config = config;
   return ros::service::call(service, request) ? "" : service + " does not answer";
+}
+
+/// @returns with a message where the node has not measured
+fiber_proximity::MeasureSettings::Response measure_settings(const std::string& service) {
+  fiber_proximity::MeasureSettings call;
+  call.request.seconds = measuring_time;
+  if (!ros::service::call(service, call)) {
+    call.response.message = service + " does not answer";
+  }
+  return call.response;
 }
 
 }  // namespace
@@ -37,11 +48,17 @@ AccuracyPanel::AccuracyPanel(QWidget* parent)
       answer_(new QLabel(this)),
       status_(new QLabel(this)),
       plot_(new AnswerPlot(history_, this)),
+      chart_(new SettingsChart(this)),
+      tabs_(new QTabWidget(this)),
+      measure_button_(new QPushButton("measure here", this)),
       timer_(new QTimer(this)) {
   name_->setObjectName("node");
   answer_->setObjectName("answer");
   status_->setObjectName("status");
   plot_->setObjectName("plot");
+  chart_->setObjectName("chart");
+  measure_button_->setObjectName("measure");
+  measure_button_->setToolTip("Every setting for some seconds, beside the node's other work");
   answer_->setWordWrap(true);
   status_->setWordWrap(true);
   auto* layout = new QVBoxLayout(this);
@@ -50,7 +67,10 @@ AccuracyPanel::AccuracyPanel(QWidget* parent)
   layout->addLayout(top);
   layout->addWidget(form_);
   layout->addWidget(answer_);
-  layout->addWidget(plot_, 1);
+  tabs_->addTab(plot_, "live");
+  tabs_->addTab(chart_, "measured");
+  layout->addWidget(tabs_, 1);
+  layout->addWidget(measure_button_);
   layout->addWidget(status_);
   QObject::connect(name_, &QLineEdit::editingFinished, this, [this] {
     const std::string asked = name_->text().toStdString();
@@ -60,6 +80,7 @@ AccuracyPanel::AccuracyPanel(QWidget* parent)
       Q_EMIT configChanged();
     }
   });
+  QObject::connect(measure_button_, &QPushButton::clicked, this, [this] { measure(); });
   QObject::connect(timer_, &QTimer::timeout, this, [this] { update_plot(); });
   timer_->start(refresh_ms);
   subscribe();
@@ -116,6 +137,7 @@ void AccuracyPanel::subscribe() {
 
 void AccuracyPanel::process(const fiber_proximity::StatisticsConstPtr& answer) {
   history_.add(now(), *answer);
+  answer_->setText(QString::fromStdString(answer->summary));
 }
 
 /// What the node says of its settings is said here in its own words.
@@ -149,6 +171,29 @@ void AccuracyPanel::show_change() {
   form_->show_values(current_);
 }
 
+void AccuracyPanel::measure() {
+  if (measuring_) {
+    return;
+  }
+  measure_button_->setEnabled(false);
+  measure_button_->setText("measuring ...");
+  measuring_ = std::async(std::launch::async, measure_settings, node_ + "/measure_settings");
+}
+
+void AccuracyPanel::show_measurement() {
+  const fiber_proximity::MeasureSettings::Response measured = measuring_->get();
+  measuring_.reset();
+  measure_button_->setEnabled(true);
+  measure_button_->setText("measure here");
+  if (measured.success != 0) {
+    chart_->show_measurement(measured);
+    tabs_->setCurrentWidget(chart_);
+    say("", false);
+  } else {
+    say(measured.message, true);
+  }
+}
+
 void AccuracyPanel::say(const std::string& text, bool is_error) {
   status_->setStyleSheet(is_error ? "color: #b00000" : "");
   status_->setText(QString::fromStdString(text));
@@ -157,6 +202,9 @@ void AccuracyPanel::say(const std::string& text, bool is_error) {
 void AccuracyPanel::update_plot() {
   if (pending_ && pending_->wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
     show_change();
+  }
+  if (measuring_ && measuring_->wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
+    show_measurement();
   }
   history_.forget(now());
   plot_->show_at(now());

@@ -8,15 +8,19 @@
 
 #include <QLabel>
 #include <QLineEdit>
+#include <QPushButton>
+#include <QTabWidget>
 #include <QTimer>
 #include <future>
 #include <optional>
 #include <string>
 
+#include "fiber_proximity/MeasureSettings.h"
 #include "fiber_proximity/Statistics.h"
 #include "src/rviz/answer_history.hpp"
 #include "src/rviz/answer_plot.hpp"
 #include "src/rviz/parameter_form.hpp"
+#include "src/rviz/settings_chart.hpp"
 
 namespace fiber_proximity_rviz {
 
@@ -42,6 +46,10 @@ class AccuracyPanel : public rviz::Panel {
 
   /// Shows what has become of the last change.
   void show_change();
+
+  /// Has the node measure all settings on the fibres it has, without waiting for it.
+  void measure();
+  void show_measurement();
   void say(const std::string& text, bool is_error);
   void update_plot();
 
@@ -56,12 +64,17 @@ class AccuracyPanel : public rviz::Panel {
   dynamic_reconfigure::Config current_;              // of the node
   std::optional<std::future<std::string>> pending_;  // an error, or empty
 
+  std::optional<std::future<fiber_proximity::MeasureSettings::Response>> measuring_;
+
   // Qt owns widgets through their parents.
   QLineEdit* name_;
   ParameterForm* form_;
   QLabel* answer_;
   QLabel* status_;
   AnswerPlot* plot_;
+  SettingsChart* chart_;
+  QTabWidget* tabs_;
+  QPushButton* measure_button_;
   QTimer* timer_;
 };
 

@@ -2,20 +2,13 @@
 
 #include <QPainter>
 #include <algorithm>
-#include <array>
 #include <cmath>
+
+#include "src/rviz/plot_axes.hpp"
 
 namespace fiber_proximity_rviz {
 namespace {
 
-/// Colours that are told apart also with colour blindness (Okabe and Ito 2008).
-const std::array<QColor, 8> part_colors{
-    QColor(86, 180, 233), QColor(230, 159, 0), QColor(0, 158, 115),   QColor(240, 228, 66),
-    QColor(0, 114, 178),  QColor(213, 94, 0),  QColor(204, 121, 167), QColor(150, 150, 150)};
-
-const QColor ground(252, 252, 252);
-const QColor grid(220, 220, 220);
-const QColor ink(40, 40, 40);
 const QColor unknown_color(200, 20, 20);
 const QColor rest_color(205, 205, 205);
 
@@ -33,37 +26,6 @@ double round_up(double value) {
   return 10.0 * power;
 }
 
-/// Where a panel of the plot is, and how a time and a share of its height get there.
-struct Axes {
-  QRectF area;
-  double begin;  // [s]
-  double end;    // [s]
-
-  double x(double time) const {
-    return area.left() + area.width() * (time - begin) / (end - begin);
-  }
-  double y(double share) const {
-    return area.bottom() - area.height() * std::clamp(share, 0.0, 1.0);
-  }
-
-  void draw(QPainter& painter, const std::vector<std::pair<double, QString>>& ticks,
-            const QString& title) const {
-    painter.fillRect(area, ground);
-    for (const auto& [share, label] : ticks) {
-      painter.setPen(grid);
-      painter.drawLine(QPointF(area.left(), y(share)), QPointF(area.right(), y(share)));
-      painter.setPen(ink);
-      painter.drawText(QRectF(0.0, y(share) - 8.0, area.left() - 4.0, 16.0),
-                       Qt::AlignRight | Qt::AlignVCenter, label);
-    }
-    painter.setPen(ink);
-    painter.drawRect(area);
-    painter.drawText(QPointF(area.left(), area.top() - 4.0), title);
-  }
-};
-
-QString number(double value) { return QString::number(value, 'g', 2); }
-
 /// [s] Above all but the slowest of the answers, which a busy machine delays: those end there.
 double highest_time(const AnswerHistory& history) {
   std::vector<double> totals{1e-6};
@@ -76,9 +38,9 @@ double highest_time(const AnswerHistory& history) {
 }
 
 /// The times of parts, each on those before it.
-void draw_times(QPainter& painter, const AnswerHistory& history, const Axes& axes) {
+void draw_times(QPainter& painter, const AnswerHistory& history, const PlotAxes& axes) {
   const double top = highest_time(history);
-  axes.draw(painter, {{0.0, "0"}, {0.5, number(0.5e3 * top)}, {1.0, number(1e3 * top)}},
+  axes.draw(painter, {{0.0, "0"}, {0.5, plot_number(0.5e3 * top)}, {1.0, plot_number(1e3 * top)}},
             "time of an answer by part [ms]");
   painter.setPen(Qt::NoPen);
   const auto& answers = history.answers();
@@ -94,7 +56,7 @@ void draw_times(QPainter& painter, const AnswerHistory& history, const Axes& axe
       below += seconds;
     };
     for (std::size_t part = 0; part < answers[i].part_times.size(); ++part) {
-      add(answers[i].part_times[part], part_colors[part % part_colors.size()]);
+      add(answers[i].part_times[part], plot_color(part));
     }
     add(std::max(0.0, answers[i].total - below), rest_color);
   }
@@ -112,18 +74,18 @@ double draw_legend(QPainter& painter, const AnswerHistory& history, QPointF at, 
       at = {left, at.y() + metrics.lineSpacing()};
     }
     painter.fillRect(QRectF(at.x(), at.y() - 8.0, 8.0, 8.0), color);
-    painter.setPen(ink);
+    painter.setPen(plot_ink());
     painter.drawText(QPointF(at.x() + 11.0, at.y()), name);
     at.rx() += width;
   };
   for (std::size_t part = 0; part < history.parts().size(); ++part) {
-    add(QString::fromStdString(history.parts()[part]), part_colors[part % part_colors.size()]);
+    add(QString::fromStdString(history.parts()[part]), plot_color(part));
   }
   add("rest", rest_color);
   return at.y() + metrics.descent();
 }
 
-void draw_uncertainties(QPainter& painter, const AnswerHistory& history, const Axes& axes) {
+void draw_uncertainties(QPainter& painter, const AnswerHistory& history, const PlotAxes& axes) {
   const double decades = std::log10(highest_uncertainty / lowest_uncertainty);
   const auto share = [&](double meters) {
     return std::log10(std::max(meters, lowest_uncertainty) / lowest_uncertainty) / decades;
@@ -144,7 +106,8 @@ void draw_uncertainties(QPainter& painter, const AnswerHistory& history, const A
 }
 
 /// @param has_texts whether what was changed is written beside the lines
-void draw_marks(QPainter& painter, const AnswerHistory& history, const Axes& axes, bool has_texts) {
+void draw_marks(QPainter& painter, const AnswerHistory& history, const PlotAxes& axes,
+                bool has_texts) {
   const QFontMetrics metrics(painter.font());
   int row = 0;
   for (const AnswerHistory::Mark& mark : history.marks()) {
@@ -182,11 +145,11 @@ void AnswerPlot::paintEvent(QPaintEvent* /*event*/) {
   constexpr double left = 54.0;
   constexpr double title = 18.0;
   const double right = width() - 6.0;
-  const Axes times{QRectF(QPointF(left, title), QPointF(right, 0.5 * height())),
-                   now_ - history_.length(), now_};
+  const PlotAxes times{QRectF(QPointF(left, title), QPointF(right, 0.5 * height())),
+                       now_ - history_.length(), now_};
   draw_times(painter, history_, times);
   const double legend_end = draw_legend(painter, history_, times.area.bottomLeft(), right);
-  const Axes uncertainties{
+  const PlotAxes uncertainties{
       QRectF(QPointF(left, legend_end + title), QPointF(right, height() - 6.0)), times.begin, now_};
   draw_uncertainties(painter, history_, uncertainties);
   draw_marks(painter, history_, times, true);

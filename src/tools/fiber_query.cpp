@@ -4,6 +4,7 @@
 #include <iostream>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "fiber_proximity/io/fiber_file.hpp"
 #include "fiber_proximity/paper/paper_engines.hpp"
@@ -102,6 +103,7 @@ void add_nearest(CLI::App& app, Command& command, const std::shared_ptr<Request>
 }
 
 void setup(CLI::App& app, Command& command) {
+  const std::vector<std::string> own_engines = engine_names();
   register_paper_engines();
   app.require_subcommand(0, 1);
   const auto request = std::make_shared<Request>();
@@ -113,6 +115,7 @@ void setup(CLI::App& app, Command& command) {
   add_check(app, command);
   add_compare(app, command);
   add_topology(app, command);
+  add_accuracy(app, command, own_engines);
 }
 
 }  // namespace

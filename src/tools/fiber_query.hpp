@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "fiber_proximity/io/fiber_file.hpp"
 #include "src/tools/command_line.hpp"
@@ -11,6 +12,12 @@
 namespace fiber {
 
 // The subcommands of fiber_query that have a source of their own, and what several of them share.
+
+/// `accuracy FILE [--margin M] [--noise N] [--picture OUT.svg]`: what each setting costs and errs
+/// on the frames of a file, and which one to take; DISAGREED if an answer's bounds exclude the
+/// truth.
+/// @param engines to be compared unless others are named
+void add_accuracy(CLI::App& app, Command& command, const std::vector<std::string>& engines);
 
 /// `check CANDIDATES [--environment WORLD] [--margin M]`: which of many candidates could be there.
 void add_check(CLI::App& app, Command& command);

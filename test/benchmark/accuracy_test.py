@@ -105,7 +105,7 @@ class AccuracyTest(BenchTestCase):
                       "| 40 % | 0 | 0 | 1.0e-16 | 2.0e-16 |", table)
         rows = list(csv.DictReader(io.StringIO(self.out("queries.csv"))))
         self.assertEqual(len(rows), 3 * 3 * 3)
-        self.assertIn("<!-- deadline at 0.25, 40 % found -->", self.out("queries_tress_a.svg"))
+        self.assertIn("<!-- deadline at a quarter of robust's time -->", self.out("queries_tress_a.svg"))
 
     def test_the_table_of_kinds_has_errors_and_wrong_decisions(self):
         self.quick()

@@ -1,6 +1,13 @@
 # Command line tools and benchmarks; included from test/, where paths begin.
 
 fiber_proximity_gtest(tools_test
+  accuracy/accuracy_picture_test.cpp
+  accuracy/answer_errors_test.cpp
+  accuracy/noise_test.cpp
+  accuracy/recommendation_test.cpp
+  accuracy/resampling_test.cpp
+  accuracy/setting_measurement_test.cpp
+  tools/accuracy_command_test.cpp
   tools/bad_command_line_test.cpp
   tools/check_test.cpp
   tools/compare_test.cpp
@@ -21,7 +28,7 @@ fiber_proximity_gtest(tools_test
   tools/tiny_fibers_test.cpp
   tools/topology_test.cpp
   COLD
-  LIBRARIES validation_geometry fiber_proximity_compare fiber_proximity_sim nlohmann_json::nlohmann_json
+  LIBRARIES fiber_proximity_accuracy validation_geometry fiber_proximity_compare fiber_proximity_sim nlohmann_json::nlohmann_json
 )
 add_dependencies(tools_test fiber_query fiber_scene fiber_simulate)
 target_compile_definitions(tools_test PRIVATE

@@ -25,6 +25,7 @@ ProximityServer::ProximityServer(const ros::NodeHandle& node, const ros::NodeHan
           node, private_node, options_, settings_, scene_, [this] { has_newcomers_ = true; },
           [this] { process(); }),
       queries_(serve_queries(private_node, pipeline_.detected(), [this] { process(); })),
+      measure_service_(private_node, options_.engine),
       tick_timer_(node_.createSteadyTimer(ros::WallDuration(tick_interval),
                                           [this](const ros::SteadyTimerEvent&) { tick(); })),
       retry_timer_(node_.createSteadyTimer(
@@ -52,6 +53,7 @@ void ProximityServer::process(bool may_repeat) {
     const bool has_newcomers = std::exchange(has_newcomers_, false);
     const bool shows_fibers = changes.fibers || (has_newcomers && scene_.fibers.is_fresh());
     pipeline_.answer({changes.fibers, shows_fibers, time_before, stopwatch});
+    measure_service_.offer(scene_.fibers.message(), settings_.query());
   } else if (changes.environment && scene_.fibers.is_fresh()) {
     pipeline_.answer_about_environment();
   }
@@ -65,6 +67,7 @@ void ProximityServer::process(bool may_repeat) {
 void ProximityServer::tick() {
   clock_.look();
   process(true);
+  measure_service_.offer(scene_.fibers.message(), settings_.query());
   pipeline_.tick();
 }
 

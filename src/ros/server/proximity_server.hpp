@@ -6,6 +6,7 @@
 
 #include "src/ros/detection/observed_scene.hpp"
 #include "src/ros/server/answer_pipeline.hpp"
+#include "src/ros/server/measure_service.hpp"
 #include "src/ros/server/server_options.hpp"
 #include "src/ros/server/settings.hpp"
 #include "src/ros/support/clock_watch.hpp"
@@ -17,7 +18,8 @@ namespace fiber_proximity_ros {
 ///
 /// Publishes ~contacts, ~environment_contacts, ~contact_events, ~time_to_contact, ~crossings (see
 /// CrossingsOutput), ~fibers, ~markers, ~statistics, ~comparison and /diagnostics; serves ~compare,
-/// and what serve_queries() and EnvironmentInputs serve. Each set of messages that have arrived
+/// and what
+/// serve_queries(), MeasureService and EnvironmentInputs serve. Each set of messages that have arrived
 /// gives one answer (see AnswerPipeline). An answer is given again where somebody has begun to
 /// listen, where other things are unknown than before, and each ~heartbeat while something is.
 class ProximityServer {
@@ -51,6 +53,7 @@ class ProximityServer {
   ObservedScene scene_;
   AnswerPipeline pipeline_;
   std::vector<ros::ServiceServer> queries_;
+  MeasureService measure_service_;
   ClockWatch clock_;
   ros::SteadyTimer tick_timer_;
   ros::SteadyTimer retry_timer_;

@@ -1,10 +1,9 @@
-#include "benchmark/answer_errors.hpp"
+#include "src/accuracy/answer_errors.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "benchmark/accuracy_settings.hpp"
 #include "test/support/answers.hpp"
 
 namespace fiber::test {
@@ -118,14 +117,56 @@ TEST(AnswerErrors, AddUpToTheWorst) {
   EXPECT_EQ(sum.bound, 2.0);
 }
 
-TEST(AccuracySettings, EachQueryBeginsWithItsReference) {
-  std::string query;
-  for (const AccuracySetting& setting : accuracy_settings(0.01)) {
-    EXPECT_EQ(setting.is_reference, setting.query != query) << setting.name;
-    query = setting.query;
-    EXPECT_NO_THROW(validate(setting.options));
-    EXPECT_EQ(setting.options.deadline, 0.0);
-  }
+TEST_F(AnswerErrorsTest, AMissedContactIsOffByHowFarWithinTheMarginItIs) {
+  ask(QueryType::ALL, 0.25);
+  answer_.contacts.erase(answer_.contacts.begin() + 1);  // at a gap of 0.1
+  EXPECT_NEAR(errors().decision_error, 0.15, 1e-12);
+  EXPECT_NEAR(errors().largest(), 0.15, 1e-12);
+  ask(QueryType::ALL, 0.25);
+  options_.margin = 0.15;  // the one at a gap of 0.2 is beyond it
+  exact_.contacts.pop_back();
+  EXPECT_NEAR(errors().decision_error, 0.05, 1e-12);
+  ask(QueryType::CLOSEST, 0.25);
+  answer_.contacts.clear();
+  EXPECT_NEAR(errors().decision_error, 0.25, 1e-12);
+}
+
+TEST_F(AnswerErrorsTest, OfTheClosestOnesDistancesAreHeldAgainstEachOther) {
+  options_.max_contacts = 2;
+  ask(QueryType::LIMITED, 1.0);
+  ASSERT_EQ(exact_.contacts.size(), 2U);
+  ask(QueryType::ALL, 1.0);
+  const Contact farther = answer_.contacts[2];
+  ask(QueryType::LIMITED, 1.0);
+  answer_.contacts[1] = farther;  // at a gap of 0.2 instead of 0.1
+  EXPECT_NEAR(errors().error, 0.1, 1e-12);
+  EXPECT_EQ(errors().missed + errors().extra, 0U);
+  answer_.contacts.pop_back();
+  EXPECT_EQ(errors().missed, 1U);
+  EXPECT_NEAR(errors().decision_error, 0.9, 1e-12);
+}
+
+TEST_F(AnswerErrorsTest, AnyContactIsAFirstOne) {
+  ask(QueryType::ALL, 0.25);
+  const Contact any = answer_.contacts[2];
+  ask(QueryType::FIRST, 0.25);
+  answer_.contacts[0] = any;
+  EXPECT_EQ(errors().missed + errors().extra, 0U);
+  EXPECT_LT(errors().largest(), 1e-15);
+  answer_.contacts.clear();
+  EXPECT_EQ(errors().missed, 1U);
+}
+
+TEST_F(AnswerErrorsTest, FibresOfOtherPointsAreHeldAgainstBothWays) {
+  ask(QueryType::FIBER_PAIRS, 0.25);
+  answer_.contacts[1].segment_b = 7;
+  answer_.contacts[1].distance -= 0.05;
+  EXPECT_NEAR(resampled_errors(options_, answer_, exact_).error, 0.05, 1e-12);
+  answer_.contacts.pop_back();
+  EXPECT_EQ(resampled_errors(options_, answer_, exact_).missed, 1U);
+  ask(QueryType::CLOSEST, 0.25);
+  answer_.contacts[0].distance -= 0.05;
+  EXPECT_NEAR(resampled_errors(options_, answer_, exact_).error, 0.05, 1e-12);
 }
 
 }  // namespace
