@@ -10,6 +10,7 @@ add_library(fiber_proximity_ros SHARED
   src/ros/detection/observed_scene.cpp
   src/ros/detection/predictor.cpp
   src/ros/detection/step_contacts.cpp
+  src/ros/detection/uncertainty.cpp
   src/ros/environment/allowed_pairs_service.cpp
   src/ros/environment/cloud_cells.cpp
   src/ros/environment/cloud_input.cpp

@@ -38,7 +38,7 @@ add_library(fiber_proximity_accuracy STATIC
   src/accuracy/answer_errors.cpp src/accuracy/answer_setting.cpp
   src/accuracy/frame_order.cpp src/accuracy/frame_survey.cpp src/accuracy/noise.cpp
   src/accuracy/recommendation.cpp src/accuracy/resampling.cpp
-  src/accuracy/setting_measurement.cpp src/accuracy/setting_run.cpp
+  src/accuracy/setting_choices.cpp src/accuracy/setting_measurement.cpp src/accuracy/setting_run.cpp
   src/accuracy/svg_drawing.cpp)
 target_link_libraries(fiber_proximity_accuracy PUBLIC
   fiber_proximity nlohmann_json::nlohmann_json fiber_proximity_options)

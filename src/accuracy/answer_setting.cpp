@@ -1,5 +1,7 @@
 #include "src/accuracy/answer_setting.hpp"
 
+#include <algorithm>
+#include <cstddef>
 #include <limits>
 
 #include "src/accuracy/number_text.hpp"
@@ -108,6 +110,25 @@ std::vector<AnswerSetting> settings_of(const std::string& question, const Settin
   }
   reference.is_reference = true;
   settings.insert(settings.begin(), reference);
+  return settings;
+}
+
+std::vector<AnswerSetting> settings_of(const std::vector<std::string>& questions,
+                                       const SettingChoices& choices) {
+  std::vector<std::vector<AnswerSetting>> of_questions;
+  std::size_t most = 0;
+  for (const std::string& question : questions) {
+    of_questions.push_back(settings_of(question, choices));
+    most = std::max(most, of_questions.back().size());
+  }
+  std::vector<AnswerSetting> settings;
+  for (std::size_t i = 0; i < most; ++i) {
+    for (const std::vector<AnswerSetting>& of_question : of_questions) {
+      if (i < of_question.size()) {
+        settings.push_back(of_question[i]);
+      }
+    }
+  }
   return settings;
 }
 

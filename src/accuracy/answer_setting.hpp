@@ -55,6 +55,11 @@ const std::vector<std::string>& compared_questions();
 /// @throws std::invalid_argument for a question that is no type of query
 std::vector<AnswerSetting> settings_of(const std::string& question, const SettingChoices& choices);
 
+/// The settings of several questions, the first of each question, then the second of each, and so
+/// on: whoever runs out of time has seen something of every question.
+std::vector<AnswerSetting> settings_of(const std::vector<std::string>& questions,
+                                       const SettingChoices& choices);
+
 /// A word for a kind: kernel, tolerance, deadline, engine, skin, threads or resampling.
 const char* name_of(SettingKind kind);
 

@@ -17,7 +17,14 @@ constexpr double no_error = 1e-9;
 constexpr double clearly_faster = 0.95;
 
 /// What is more accurate is taken if it takes at most so many times as long as the fastest.
-constexpr double max_ratio_to_fastest = 1.03;
+constexpr double nearly_as_fast = 1.03;
+
+/// How many times as long a median may take by chance alone: a standard error of its ratio to the
+/// reference's; of few answers it is not known either.
+double chance(const SettingOutcome& outcome) {
+  const auto answers = static_cast<double>(std::max<std::size_t>(outcome.answers, 1));
+  return 1.0 + std::max(outcome.ratio_error, 0.5 / answers);
+}
 
 /// A tolerance that is as large as the noise states a rounding more.
 constexpr double slightly_more = 1.001;
@@ -55,15 +62,15 @@ const SettingOutcome& preferred(const std::vector<SettingOutcome>& outcomes,
       fastest = &outcome;
     }
   }
-  const double fastest_ms = fastest->p50_ms;
-  if (reference.p50_ms <= max_ratio_to_fastest * fastest_ms) {
+  const double max_ratio = nearly_as_fast * chance(*fastest);
+  const double max_ms = max_ratio * fastest->p50_ms;
+  if (reference.p50_ms <= max_ms) {
     return reference;
   }
   const SettingOutcome* taken = fastest;
   for (const SettingOutcome& outcome : outcomes) {
     if (is_accurate_enough(outcome, limit) && inaccuracy(outcome) < inaccuracy(*taken) &&
-        outcome.p50_ms <= max_ratio_to_fastest * fastest_ms &&
-        max_ratio_to_fastest * outcome.p50_ms < reference.p50_ms) {
+        outcome.p50_ms <= max_ms && max_ratio * outcome.p50_ms < reference.p50_ms) {
       taken = &outcome;
     }
   }
@@ -222,7 +229,7 @@ bool is_dominated(const SettingOutcome& outcome, const SettingOutcome& other) {
       other.invented_percent <= outcome.invented_percent &&
       other.complete_percent >= outcome.complete_percent && keeps_bounds(other);
   return is_as_accurate && other.setting.kind != SettingKind::DEADLINE &&
-         other.p50_ms < clearly_faster * outcome.p50_ms;
+         other.p50_ms * std::max(chance(other), chance(outcome)) < clearly_faster * outcome.p50_ms;
 }
 
 std::vector<bool> dominated(const std::vector<SettingOutcome>& outcomes) {

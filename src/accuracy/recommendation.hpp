@@ -17,7 +17,8 @@ struct Recommendation {
 
 /// Whether another setting is at least as accurate, by errors, doubts, contacts and completeness,
 /// and clearly faster: its median takes less than 95 % of the time, beyond what two measurements
-/// of one setting differ by. A deadline dominates nothing: another frame may take longer.
+/// of one setting differ by, and beyond what chance may do to the medians. A deadline dominates
+/// nothing: another frame may take longer.
 bool is_dominated(const SettingOutcome& outcome, const SettingOutcome& other);
 
 /// Whether any other one dominates each.

@@ -15,6 +15,10 @@ struct SettingOutcome {
   double p99_ms = 0.0;
   double deadline_ms = 0.0;  ///< of the query, 0 for none
 
+  /// By what part the ratio of its median to the reference's may be off: the standard error of the
+  /// median of their ratios on the same frames.
+  double ratio_error = 0.0;
+
   double error = 0.0;  ///< [m] the largest, AnswerErrors::largest()
   double doubt = 0.0;  ///< [m] the largest that answers stated themselves
 

@@ -1,6 +1,7 @@
 #include "src/accuracy/setting_run.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "src/accuracy/statistics.hpp"
@@ -20,6 +21,17 @@ double doubt_of(const QueryOptions& options, const QueryResult& answer,
   const double unknown =
       answer.complete ? 0.0 : std::max(0.0, options.margin - answer.others_lower);
   return std::max(errors.bound, unknown);
+}
+
+/// The standard error of the median of ratios, by their quartiles, as if they were normal.
+double error_of_ratio(const std::vector<double>& times, const std::vector<double>& others) {
+  std::vector<double> ratios;
+  for (std::size_t i = 0; i < std::min(times.size(), others.size()); ++i) {
+    ratios.push_back(times[i] / others[i]);
+  }
+  const double spread = quantile(ratios, 0.75) - quantile(ratios, 0.25);
+  constexpr double of_normal = 0.93;  // sqrt(pi / 2) over 1.349, the distance of the quartiles
+  return of_normal * spread / (median(ratios) * std::sqrt(static_cast<double>(ratios.size())));
 }
 
 double percent(std::size_t part, std::size_t whole) {
@@ -63,13 +75,14 @@ void SettingRun::judge(const FiberAssembly& fibers, const QueryResult& answer,
   }
 }
 
-SettingOutcome SettingRun::outcome() const {
+SettingOutcome SettingRun::outcome(const SettingRun& reference) const {
   SettingOutcome outcome;
   outcome.setting = setting_;
   outcome.answers = times_ms_.size();
   outcome.p50_ms = median(times_ms_);
   outcome.p99_ms = quantile(times_ms_, 0.99);
   outcome.deadline_ms = deadlines_ms_.empty() ? 0.0 : median(deadlines_ms_);
+  outcome.ratio_error = error_of_ratio(times_ms_, reference.times_ms_);
   outcome.error = errors_.largest();
   outcome.doubt = doubt_;
   outcome.missed_percent = percent(errors_.missed + errors_.cut_off, errors_.expected);

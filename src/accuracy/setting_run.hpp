@@ -35,8 +35,9 @@ class SettingRun {
   /// [ms] The median of its queries, 0 before the first.
   double query_ms() const;
 
+  /// @param reference run whose times are of the same frames, of the same number
   /// @return of a run that has times
-  SettingOutcome outcome() const;
+  SettingOutcome outcome(const SettingRun& reference) const;
 
  private:
   AnswerSetting setting_;

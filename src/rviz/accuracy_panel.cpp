@@ -48,7 +48,6 @@ AccuracyPanel::AccuracyPanel(QWidget* parent)
       answer_(new QLabel(this)),
       status_(new QLabel(this)),
       plot_(new AnswerPlot(history_, this)),
-      chart_(new SettingsChart(this)),
       tabs_(new QTabWidget(this)),
       measure_button_(new QPushButton("measure here", this)),
       timer_(new QTimer(this)) {
@@ -56,7 +55,6 @@ AccuracyPanel::AccuracyPanel(QWidget* parent)
   answer_->setObjectName("answer");
   status_->setObjectName("status");
   plot_->setObjectName("plot");
-  chart_->setObjectName("chart");
   measure_button_->setObjectName("measure");
   measure_button_->setToolTip("Every setting for some seconds, beside the node's other work");
   answer_->setWordWrap(true);
@@ -68,7 +66,6 @@ AccuracyPanel::AccuracyPanel(QWidget* parent)
   layout->addWidget(form_);
   layout->addWidget(answer_);
   tabs_->addTab(plot_, "live");
-  tabs_->addTab(chart_, "measured");
   layout->addWidget(tabs_, 1);
   layout->addWidget(measure_button_);
   layout->addWidget(status_);
@@ -186,8 +183,15 @@ void AccuracyPanel::show_measurement() {
   measure_button_->setEnabled(true);
   measure_button_->setText("measure here");
   if (measured.success != 0) {
-    chart_->show_measurement(measured);
-    tabs_->setCurrentWidget(chart_);
+    while (tabs_->count() > 1) {
+      delete tabs_->widget(1);
+    }
+    for (const std::string& question : measured.questions) {
+      auto* chart = new SettingsChart(question, measured, tabs_);
+      chart->setObjectName(QString::fromStdString("chart of " + question));
+      tabs_->addTab(chart, QString::fromStdString(question));
+    }
+    tabs_->setCurrentIndex(1);
     say("", false);
   } else {
     say(measured.message, true);

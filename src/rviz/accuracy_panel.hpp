@@ -72,7 +72,6 @@ class AccuracyPanel : public rviz::Panel {
   QLabel* answer_;
   QLabel* status_;
   AnswerPlot* plot_;
-  SettingsChart* chart_;
   QTabWidget* tabs_;
   QPushButton* measure_button_;
   QTimer* timer_;

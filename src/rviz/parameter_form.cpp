@@ -2,9 +2,11 @@
 
 #include <QCheckBox>
 #include <QComboBox>
+#include <QLabel>
 #include <QLineEdit>
 #include <QSignalBlocker>
 #include <algorithm>
+#include <memory>
 #include <regex>
 
 namespace fiber_proximity_rviz {
@@ -38,14 +40,14 @@ ParameterForm::ParameterForm(std::vector<std::string> names, OnChange on_change,
     : QWidget(parent),
       names_(std::move(names)),
       on_change_(std::move(on_change)),
-      layout_(new QFormLayout(this)) {
+      layout_(new QGridLayout(this)) {
   layout_->setContentsMargins(0, 0, 0, 0);
   layout_->setVerticalSpacing(2);
 }
 
 void ParameterForm::describe(const dynamic_reconfigure::ConfigDescription& description) {
-  while (layout_->rowCount() > 0) {
-    layout_->removeRow(0);
+  while (const std::unique_ptr<QLayoutItem> item{layout_->takeAt(0)}) {
+    delete item->widget();
   }
   setters_.clear();
   for (const std::string& name : names_) {
@@ -125,7 +127,10 @@ void ParameterForm::add(const dynamic_reconfigure::ParamDescription& parameter,
   }
   control->setObjectName(QString::fromStdString(name));
   control->setToolTip(QString::fromStdString(parameter.description));
-  layout_->addRow(QString::fromStdString(name), control);
+  // Two beside each other.
+  const int place = static_cast<int>(setters_.size()) - 1;
+  layout_->addWidget(new QLabel(QString::fromStdString(name), this), place / 2, 2 * (place % 2));
+  layout_->addWidget(control, place / 2, 2 * (place % 2) + 1);
   setters_[name](description.dflt);
 }
 

@@ -3,7 +3,7 @@
 #include <dynamic_reconfigure/Config.h>
 #include <dynamic_reconfigure/ConfigDescription.h>
 
-#include <QFormLayout>
+#include <QGridLayout>
 #include <QWidget>
 #include <functional>
 #include <map>
@@ -35,7 +35,7 @@ class ParameterForm : public QWidget {
 
   std::vector<std::string> names_;
   OnChange on_change_;
-  QFormLayout* layout_;
+  QGridLayout* layout_;
   std::map<std::string, std::function<void(const dynamic_reconfigure::Config&)>> setters_;
 };
 

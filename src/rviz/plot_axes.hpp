@@ -11,11 +11,13 @@
 
 namespace fiber_proximity_rviz {
 
-/// Colours that are told apart also with colour blindness (Okabe and Ito 2008).
+/// Colours that are told apart also with colour blindness (Okabe and Ito 2008), and darker ones of
+/// some of them where these are not enough.
 inline QColor plot_color(std::size_t index) {
-  static const std::array<QColor, 8> colors{
-      QColor(86, 180, 233), QColor(230, 159, 0), QColor(0, 158, 115),   QColor(240, 228, 66),
-      QColor(0, 114, 178),  QColor(213, 94, 0),  QColor(204, 121, 167), QColor(150, 150, 150)};
+  static const std::array<QColor, 12> colors{
+      QColor(86, 180, 233), QColor(230, 159, 0),  QColor(0, 158, 115),   QColor(240, 228, 66),
+      QColor(0, 114, 178),  QColor(213, 94, 0),   QColor(204, 121, 167), QColor(150, 150, 150),
+      QColor(20, 90, 70),   QColor(120, 60, 110), QColor(130, 90, 0),    QColor(60, 60, 60)};
   return colors[index % colors.size()];
 }
 

@@ -1,19 +1,23 @@
 #pragma once
 
 #include <QWidget>
+#include <string>
+#include <vector>
 
 #include "fiber_proximity/MeasureSettings.h"
 
 namespace fiber_proximity_rviz {
 
-/// What each setting costs and errs: time against error, on logarithmic axes, a panel for each
-/// question, one colour a setting. An error of 0 is at the lower edge, and what misses contacts is
-/// hollow. What another setting dominates is pale. Below stands what to take, and why.
+/// What each setting costs and errs for one question: time against error, on logarithmic axes, one
+/// colour a setting. An error of 0 is at the lower edge, and what misses contacts is hollow. What
+/// another setting dominates is pale. Below stand their names, and what to take, and why.
 class SettingsChart : public QWidget {
  public:
-  explicit SettingsChart(QWidget* parent = nullptr);
-
-  void show_measurement(const fiber_proximity::MeasureSettings::Response& measured);
+  /// @param question as `type` of a query is called
+  /// @param measured the settings of other questions are left out
+  SettingsChart(const std::string& question,
+                const fiber_proximity::MeasureSettings::Response& measured,
+                QWidget* parent = nullptr);
 
   QSize sizeHint() const override { return {360, 300}; }
 
@@ -21,7 +25,13 @@ class SettingsChart : public QWidget {
   void paintEvent(QPaintEvent* event) override;
 
  private:
-  fiber_proximity::MeasureSettings::Response measured_;
+  /// @returns where they end
+  double draw_names(QPainter& painter, double bottom) const;
+  void draw_settings(QPainter& painter, const QRectF& area) const;
+
+  std::string question_;
+  std::string recommendation_;
+  std::vector<fiber_proximity::SettingMeasurement> settings_;
 };
 
 }  // namespace fiber_proximity_rviz

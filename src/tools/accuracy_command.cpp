@@ -1,9 +1,9 @@
 // `fiber_query accuracy`: what each setting costs and errs on the user's own frames.
 #include <algorithm>
 #include <iostream>
-#include <map>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,7 +13,7 @@
 #include "src/accuracy/accuracy_report.hpp"
 #include "src/accuracy/frame_survey.hpp"
 #include "src/accuracy/number_text.hpp"
-#include "src/accuracy/resampling.hpp"
+#include "src/accuracy/setting_choices.hpp"
 #include "src/accuracy/setting_measurement.hpp"
 #include "src/text/quote.hpp"
 #include "src/tools/fiber_query.hpp"
@@ -25,12 +25,6 @@ namespace {
 
 /// Parts of the time that looking at the frames may take, before any setting is measured.
 constexpr double survey_part = 0.1;
-
-/// Above so many segments an engine that examines every pair is not compared.
-constexpr std::size_t max_brute_force_segments = 3000;
-
-/// Resampled fibres are compared where they have at most this part of the points.
-constexpr double max_resampled_part = 0.8;
 
 struct AccuracyRequest : FiberRequest {
   std::string engine = "run_tree";
@@ -95,65 +89,25 @@ double margin_of(const AccuracyRequest& request, const std::vector<FiberFrame>& 
   return *request.margin;
 }
 
-bool have_same_points(const std::vector<FiberFrame>& frames) {
-  return std::all_of(frames.begin(), frames.end(), [&](const FiberFrame& frame) {
-    return frame.fibers.offsets() == frames.front().fibers.offsets();
-  });
-}
-
-/// Errors of chords [m] that leave out enough points to be compared.
-std::vector<double> chord_errors_of(const std::vector<FiberFrame>& frames,
-                                    std::vector<std::string>& left_out) {
-  if (!have_same_points(frames)) {
-    left_out.emplace_back("resampling: the frames have different points");
-    return {};
-  }
-  const FiberAssembly& first = frames.front().fibers;
-  std::vector<double> errors;
-  for (const double error : compared_tolerances()) {
-    const std::size_t points = enough_points({&first}, error).size();
-    if (static_cast<double>(points) <=
-        max_resampled_part * static_cast<double>(first.point_count())) {
-      errors.push_back(error);
+/// Refuses a question that is named twice.
+std::string refuse_again(const std::vector<std::string>& questions) {
+  for (const std::string& question : questions) {
+    if (std::count(questions.begin(), questions.end(), question) > 1) {
+      return quote(question) + " is there twice";
     }
   }
-  if (errors.empty()) {
-    left_out.emplace_back("resampling: no point is within " +
-                          millimetres(compared_tolerances().back()) + " of a chord");
-  }
-  return errors;
+  return "";
 }
 
 SettingChoices choices_of(const AccuracyRequest& request, const std::vector<FiberFrame>& frames,
-                          const AccuracyReport& report, std::vector<std::string>& left_out) {
+                          AccuracyReport& report) {
   SettingChoices choices;
   choices.options = request.options;
   choices.options.margin = report.margin;
   choices.engine = request.engine;
+  choices.other_engines = request.engines;
   choices.engine_options = request.engine_options;
-  for (const std::string& engine : request.engines) {
-    if (engine == "brute_force" && report.segments > max_brute_force_segments) {
-      left_out.push_back("engine brute_force: it examines every pair of " +
-                         std::to_string(report.segments) + " segments");
-    } else if (engine != request.engine) {
-      choices.other_engines.push_back(engine);
-    }
-  }
-  const auto used = [&](std::uint32_t threads) {
-    return make_engine(request.engine, {threads})->facts().thread_count;
-  };
-  if (used(request.engine_options.threads) > 1) {
-    choices.threads.push_back(1);
-  } else if (used(0) > 1) {
-    choices.threads.push_back(0);
-  }
-  if (report.track.step > 0.0) {
-    // Several times what points move, as EngineOptions::skin wants it.
-    choices.skins = {4.0 * report.track.step, 16.0 * report.track.step};
-  } else {
-    left_out.emplace_back("skin: no motion from frame to frame is known");
-  }
-  choices.chord_errors = chord_errors_of(frames, left_out);
+  choose_by_frames(frames, report.track.step, choices, report.left_out);
   return choices;
 }
 
@@ -200,12 +154,8 @@ AccuracyReport measure(const AccuracyRequest& request) {
   if (request.rate) {
     report.frame_time = 1.0 / *request.rate;
   }
-  const SettingChoices choices = choices_of(request, frames, report, report.left_out);
-  std::vector<AnswerSetting> settings;
-  for (const std::string& question : request.questions) {
-    const std::vector<AnswerSetting> more = settings_of(question, choices);
-    settings.insert(settings.end(), more.begin(), more.end());
-  }
+  const SettingChoices choices = choices_of(request, frames, report);
+  const std::vector<AnswerSetting> settings = settings_of(request.questions, choices);
   SettingMeasurement measurement =
       measure_settings(frames, settings, TimeBudget((1.0 - survey_part) * request.seconds),
                        request.answers, [&](const std::string& text) { progress.show(text); });
@@ -297,6 +247,9 @@ void add_accuracy(CLI::App& app, Command& command, const std::vector<std::string
   accuracy->callback([&command, request] {
     for (const std::string& engine : request->engines) {
       make_engine(engine);  // refuses an unknown one before anything is measured
+    }
+    if (const std::string reason = refuse_again(request->questions); !reason.empty()) {
+      throw std::invalid_argument("--questions: " + reason);
     }
     validate(request->options);
     command = [request] { return run(*request); };

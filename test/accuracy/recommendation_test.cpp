@@ -44,6 +44,17 @@ TEST(Recommendation, TheReferenceUnlessAnotherIsFaster) {
   EXPECT_EQ(taken({robust(1.0), outcome(SettingKind::KERNEL, "exact", 1.2)}), "robust");
 }
 
+TEST(Recommendation, ChanceDoesNotCount) {
+  SettingOutcome exact = outcome(SettingKind::KERNEL, "exact", 0.9);
+  EXPECT_TRUE(is_dominated(robust(1.0), exact));
+  exact.ratio_error = 0.08;
+  EXPECT_EQ(taken({robust(1.0), exact}), "robust");
+  EXPECT_FALSE(is_dominated(robust(1.0), exact));
+  exact.ratio_error = 0.0;
+  exact.answers = 3;
+  EXPECT_EQ(taken({robust(1.0), exact}), "robust");
+}
+
 TEST(Recommendation, AToleranceOnlyWithinHalfOfTheNoise) {
   const std::vector<SettingOutcome> outcomes{robust(1.0), tolerance(1e-3, 0.7),
                                              tolerance(1e-2, 0.5)};

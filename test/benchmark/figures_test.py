@@ -198,7 +198,9 @@ class RedrawTest(FigureTestCase):
                 for module in modules:
                     patches.enter_context(mock.patch.object(module, "save", write_instead))
                 report(out)
-            committed = [path for path in (DOCS / FOLDERS[name]).iterdir() if path.suffix in (".md", ".svg")]
+            # own_cable.svg is by fiber_query accuracy.
+            committed = [path for path in (DOCS / FOLDERS[name]).iterdir()
+                         if path.suffix in (".md", ".svg") and path.name != "own_cable.svg"]
             for path in committed:
                 drawn = (out / path.name).read_text()
                 self.assertEqual(drawn, "drawn" if path.suffix == ".svg" else path.read_text(), path)

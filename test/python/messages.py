@@ -83,6 +83,7 @@ class Messages(unittest.TestCase):
         for contact, sent in zip(contacts, plain.contacts):
             self.assertEqual((sent.fiber_a, sent.segment_b, sent.distance), (contact['fiber_a'], contact['segment_b'],
                                                                             contact['distance']))
+            self.assertEqual(sent.certain, contact['upper'] <= 0.3)
             self.assertEqual((sent.normal.x, sent.normal.y, sent.normal.z), tuple(contact['normal']))
         for received in (message, plain, as_any(plain)):
             back = fp.from_msg(received)
@@ -94,7 +95,7 @@ class Messages(unittest.TestCase):
 
     def test_gradients_of_all_of_none_and_of_some(self):
         with_gradients = Contact(distance=1.0, id=7, age=2.5, time_lower=genpy.Time(3, 500000000), gone=True,
-                                 type_b=Contact.OBJECT, gradients=[Vector3(i, 0, -i) for i in range(4)])
+                                 certain=True, type_b=Contact.OBJECT, gradients=[Vector3(i, 0, -i) for i in range(4)])
         without = Contact(distance=2.0)
         for contacts in ([], [without] * 3, [with_gradients] * 3, [with_gradients, without, with_gradients],
                          [without, with_gradients], [Contact(distance=1.0, gradients=[Vector3()] * 2), with_gradients]):
@@ -103,8 +104,8 @@ class Messages(unittest.TestCase):
             for contact, item in zip(contacts, read):
                 if len(contact.gradients) == 4:
                     np.testing.assert_array_equal(item['gradients'][:, 2], [0, -1, -2, -3])
-                    self.assertEqual(tuple(item[['id', 'age', 'time_lower', 'gone', 'type_b']]),
-                                     (7, 2.5, 3.5, True, Contact.OBJECT))
+                    self.assertEqual(tuple(item[['id', 'age', 'time_lower', 'gone', 'certain', 'type_b']]),
+                                     (7, 2.5, 3.5, True, True, Contact.OBJECT))
                 else:
                     self.assertTrue(np.isnan(item['gradients']).all())
 

@@ -225,5 +225,23 @@ TEST(AnswerText, TellsTheTimeOfTheWholeAnswerAndOfItsParts) {
                 "others 0.29; updates alone take longer");
 }
 
+TEST(AnswerText, TellsWhichContactsOfUncertainInputsAreCertain) {
+  PairsAnswer answer = pairs(QueryType::ALL, 18);
+  answer.uncertain = 6;
+  answer.contact_error = 0.004;
+  answer.minimum_lower = 0.0237;
+  answer.minimum_upper = 0.0317;
+  EXPECT_EQ(text_of(answer),
+            "robust: 18 possible contacts, 12 of them certain (each to 4.00 mm), closest 27.7 mm, "
+            "true 23.7 mm to 31.7 mm");
+  answer.is_cut_off = true;
+  EXPECT_EQ(text_of(answer),
+            "robust: at least 18 possible contacts, 12 of them certain (each to 4.00 mm), cut off, "
+            "closest 27.7 mm, true 23.7 mm to 31.7 mm");
+  answer.is_cut_off = false;
+  answer.asked.type = QueryType::FIRST;
+  EXPECT_EQ(text_of(answer).substr(0, 27), "robust: perhaps in contact,");
+}
+
 }  // namespace
 }  // namespace fiber_proximity_ros

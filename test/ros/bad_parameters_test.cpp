@@ -55,6 +55,11 @@ TEST_F(BadInputTest, BadEntriesOfInputsAreLeftOutWithAnErrorEach) {
   expect_left_out(36,
                   "key 'name' is good (without it, the topic), as of parameter /refused/inputs, "
                   "entry 0, it must be another one");
+  const std::string rule = ", it must be a number from 0 to 1e+150";
+  expect_left_out(39, "key 'uncertainty' is -0.001" + rule);
+  expect_left_out(40, "key 'uncertainty' is nan" + rule);
+  expect_left_out(41, "key 'uncertainty' is inf" + rule);
+  expect_left_out(42, "key 'uncertainty' is some" + rule);
   EXPECT_NE(log.find("parameter /refused/margn is unknown and not used; is margin meant?"),
             std::string::npos);
   ros::param::del("/refused");

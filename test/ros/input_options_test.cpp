@@ -35,6 +35,7 @@ TEST(InputOptions, ATopicIsEnough) {
   EXPECT_EQ(options.type, "fiber_proximity/FiberArray");
   EXPECT_EQ(options.name, "cable");
   EXPECT_EQ(options.radius, 0.25);
+  EXPECT_EQ(options.uncertainty, 0.0);
   EXPECT_EQ(options.missing_points, MissingPoints::REFUSE);
 }
 
@@ -43,6 +44,7 @@ TEST(InputOptions, EveryKeyIsRead) {
                                                     value["type"] = "visualization_msgs/Marker";
                                                     value["name"] = "left";
                                                     value["radius"] = 1;
+                                                    value["uncertainty"] = 0.002;
                                                     value["missing_points"] = "split";
                                                     value["namespace"] = "state";
                                                     value["radius_from_marker"] = true;
@@ -52,6 +54,7 @@ TEST(InputOptions, EveryKeyIsRead) {
   EXPECT_EQ(options.type, "visualization_msgs/Marker");
   EXPECT_EQ(options.name, "left");
   EXPECT_EQ(options.radius, 1.0);
+  EXPECT_EQ(options.uncertainty, 0.002);
   EXPECT_EQ(options.missing_points, MissingPoints::SPLIT);
   EXPECT_EQ(options.marker.marker_namespace, "state");
   EXPECT_TRUE(options.marker.radius_from_marker);
@@ -72,8 +75,9 @@ TEST(InputOptions, EveryErrorNamesKeyValueAndWhatIsAllowed) {
             "has no key 'topic'");
   EXPECT_EQ(error_with("topic", 7), "key 'topic' is 7, it must be a string");
   EXPECT_EQ(error_with("colour", "red"),
-            "has the unknown key 'colour', known are: topic, type, name, radius, missing_points, "
-            "required, max_pairs, max_time, namespace, radius_from_marker, weld_tolerance");
+            "has the unknown key 'colour', known are: topic, type, name, radius, uncertainty, "
+            "missing_points, required, max_pairs, max_time, namespace, radius_from_marker, "
+            "weld_tolerance");
   EXPECT_EQ(error_with("type", "std_msgs/String"),
             "unknown input type 'std_msgs/String', known are: fiber_proximity/FiberArray, "
             "sensor_msgs/PointCloud2, sensor_msgs/PointCloud, geometry_msgs/PoseArray, "

@@ -44,6 +44,7 @@ fiber_proximity_gtest(detector_test
   ros/budget_test.cpp
   ros/detector_test.cpp
   ros/fiber_step_test.cpp
+  ros/uncertainty_test.cpp
   COLD
   HEADERS graph_test_headers
   LIBRARIES fiber_proximity_ros
@@ -198,6 +199,15 @@ add_rostest_gtest(answer_text_node_test
 target_link_libraries(answer_text_node_test
   fiber_proximity_ros fiber_proximity_options test_support)
 add_dependencies(answer_text_node_test proximity_node)
+
+add_rostest_gtest(uncertainty_node_test
+  ros/uncertainty.test
+  ros/uncertainty_node_test.cpp
+  ros/main.cpp
+)
+target_link_libraries(uncertainty_node_test
+  fiber_proximity_ros fiber_proximity_options test_support)
+add_dependencies(uncertainty_node_test proximity_node)
 
 add_rostest_gtest(environment_node_test
   ros/environment_inputs.test

@@ -12,8 +12,10 @@
 #include <QKeyEvent>
 #include <QMouseEvent>
 #include <memory>
+#include <set>
 
 #include "fiber_proximity/FiberArray.h"
+#include "src/rviz/plot_axes.hpp"
 #include "test/ros/messages.hpp"
 
 namespace {
@@ -146,6 +148,26 @@ TEST_F(AccuracyPanelTest, AnswersAreDrawnWhileTheyCome) {
   const int before = count_pixels(known);
   EXPECT_TRUE(wait_until([&] { return count_pixels(known) > before + 20; })) << "it stands still";
   EXPECT_GT(count_pixels(contacts), 0);
+}
+
+TEST_F(AccuracyPanelTest, SettingsAreMeasuredAndDrawn) {
+  auto* button = control<QPushButton>("measure");
+  click(button);
+  EXPECT_FALSE(button->isEnabled()) << "one at a time";
+  EXPECT_TRUE(wait_until([&] { return button->isEnabled(); }));
+  EXPECT_EQ(status(), "");
+  auto* chart = control<fiber_proximity_rviz::SettingsChart>("chart of all");
+  EXPECT_TRUE(chart->isVisible());
+  const QImage image = chart->grab().toImage();
+  std::set<QRgb> colors;
+  for (int y = 0; y < image.height(); ++y) {
+    for (int x = 0; x < image.width(); ++x) {
+      colors.insert(image.pixel(x, y));
+    }
+  }
+  EXPECT_EQ(colors.count(fiber_proximity_rviz::plot_color(0).rgb()), 1U) << "the kernel robust";
+  EXPECT_GT(colors.size(), 5U);
+  EXPECT_NE(control<fiber_proximity_rviz::SettingsChart>("chart of closest"), nullptr);
 }
 
 TEST_F(AccuracyPanelTest, ANodeThatIsNotThereIsWaitedFor) {

@@ -1,6 +1,8 @@
 // What falls on a table, slides into one or hits another rod: rebound, Coulomb's cone, momentum and
 // energy of impacts, whatever the step.
 
+#include "src/sim/contact/impact.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -53,6 +55,28 @@ std::ostream& operator<<(std::ostream& out, const Drop& drop) {
 class DropOf : public testing::TestWithParam<Drop> {};
 
 /// The highest point after the first impact, by energy: the square of the rebound's speed.
+/// A rod falls on its first node while its last one leaves the table already, faster than it
+/// should.
+TEST(Impact, NeverPulls) {
+  Rods rods;
+  rods.add(straight({0, 0, 0}, {1, 0, 0}, 1), 0.01, rubber(0.01));
+  rods.velocities = {{0, 0, -1}, {0, 0, 3}};
+  std::vector<Impact> impacts;
+  for (const double end : {0.0, 1.0}) {
+    Impact impact{};
+    impact.points = {0, 0, end, 0, ContactPoints::no_edge, 0.0};
+    impact.normal = Vector3d::UnitZ();
+    impact.has_begun = true;
+    impact.separation = 0.2;
+    impacts.push_back(impact);
+  }
+  resolve(rods, 0.3, impacts);
+  EXPECT_NEAR(rods.velocities[0].z(), 0.2, 1e-6);
+  EXPECT_NEAR(rods.velocities[1].z(), 3.0, 1e-12);
+  EXPECT_GT(impacts[0].pressure, 0.0);
+  EXPECT_EQ(impacts[1].pressure, 0.0);
+}
+
 TEST_P(DropOf, ReboundsByItsRestitutionAndNeverHigherThanItFell) {
   for (const double height : {0.05, 0.3, 1.0}) {
     for (const double restitution : {0.0, 0.2, 0.7}) {

@@ -112,6 +112,8 @@ TEST_F(Accuracy, RefusesWhatCannotBeMeasured) {
                       "/nowhere/picture.svg: cannot be opened"));
   EXPECT_TRUE(refused(query(accuracy + crossing() + " --engines XL"), "'XL'"));
   EXPECT_TRUE(refused(query(accuracy + crossing() + " --questions nearest"), "nearest"));
+  EXPECT_TRUE(
+      refused(query(accuracy + crossing() + " --questions all,first,all"), "'all' is there twice"));
   EXPECT_TRUE(refused(query(accuracy + crossing() + " --rate 0"), "--rate"));
   EXPECT_TRUE(refused(query(accuracy + crossing() + " --noise -1"), "--noise"));
   EXPECT_TRUE(refused(query(accuracy + path("none.csv")), "cannot be opened"));

@@ -164,7 +164,8 @@ double growth_of_hinged(double moment) {
   const auto distance = [](const Rods& r) {
     return std::max(distance_along(r, 1), distance_along(r, 2));
   };
-  return growth(stepper, [&] { creep(stepper, 0.05); }, distance, 300);
+  return growth(
+      stepper, [&] { creep(stepper, 0.05); }, distance, 300);
 }
 
 // Between clamps: tan x = x for x = ML/2EI.

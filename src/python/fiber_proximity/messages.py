@@ -18,13 +18,13 @@ _WIRE_CONTACT = np.dtype([
     ('type_a', 'u1'), ('type_b', 'u1'), ('fiber_a', '<u4'), ('segment_a', '<u4'), ('s', '<f8'), ('fiber_b', '<u4'),
     ('segment_b', '<u4'), ('t', '<f8'), ('distance', '<f8'), ('lower', '<f8'), ('upper', '<f8'), ('point_a', *_POINT),
     ('point_b', *_POINT), ('normal', *_POINT), ('id', '<u8'), ('age', '<f8'), ('time_lower', '<u4', (2,)),
-    ('time_upper', '<u4', (2,)), ('gone', '?'), ('gradient_count', '<u4')])
+    ('time_upper', '<u4', (2,)), ('gone', '?'), ('certain', '?'), ('gradient_count', '<u4')])
 
 #: What from_msg() makes of a ContactArray: the fields of the message Contact; times in seconds, and gradients (4, 3),
 #: which are not numbers where the message has none.
 message_contact_dtype = np.dtype(
     [(name, *_WIRE_CONTACT.fields[name][:1]) for name in _WIRE_CONTACT.names[:16]] +
-    [('time_lower', 'f8'), ('time_upper', 'f8'), ('gone', '?'), ('gradients', 'f8', (4, 3))])
+    [('time_lower', 'f8'), ('time_upper', 'f8'), ('gone', '?'), ('certain', '?'), ('gradients', 'f8', (4, 3))])
 
 
 class _Reader:
@@ -130,6 +130,7 @@ def _from_contacts(message, default_radius):
     for name in ('time_lower', 'time_upper'):
         contacts[name] = read[name] @ [1.0, 1e-9]
     contacts['gone'] = read['gone']
+    contacts['certain'] = read['certain']
     contacts['gradients'] = gradients
     return contacts
 
@@ -270,6 +271,7 @@ def _contacts_to_msg(contacts, header, names, margin):
     for name in contacts.dtype.names:
         if name in _WIRE_CONTACT.names[:16]:
             wire[name] = contacts[name]
+    wire['certain'] = wire['upper'] <= margin
     message = ContactArray(header=header, fiber_names=list(names), since=header.stamp, margin=margin, complete=True,
                            kernel='robust')
     buffer = io.BytesIO()

@@ -16,16 +16,18 @@ void Detection::fail(const std::string& reason) {
   minimum_lower_ = -std::numeric_limits<double>::infinity();
 }
 
-void Detection::detect(const fiber::QueryOptions& options, bool wants_minimum, const Ask& ask) {
+void Detection::detect(const fiber::QueryOptions& options, bool wants_minimum,
+                       const Uncertainty& uncertainty, const Ask& ask) {
   failure_.clear();
   const Stopwatch stopwatch;
   const fiber::Deadline deadline(options.deadline);
-  ask(options, contacts_);
+  const bool leaves_out = query_possible(options, uncertainty, ask, contacts_);
   counts_ = contacts_.counts;
   complete_ = contacts_.complete;
   limit_reached_ = contacts_.limit_reached;
-  // The first contact found need not be the closest.
-  minimum_ = options.type == fiber::QueryType::FIRST ? nullptr : contacts_.closest();
+  // The first contact found need not be the closest, nor need one be that is possible.
+  const bool tells_minimum = options.type != fiber::QueryType::FIRST && !leaves_out;
+  minimum_ = tells_minimum ? contacts_.closest() : nullptr;
   minimum_lower_ = contacts_.minimum_lower();
   minimum_complete_ = contacts_.complete;
   contact_time_ = stopwatch.seconds();
@@ -34,20 +36,32 @@ void Detection::detect(const fiber::QueryOptions& options, bool wants_minimum, c
     closest.type = fiber::QueryType::CLOSEST;
     closest.margin = std::numeric_limits<double>::infinity();
     closest.deadline = deadline.left();
-    ask(closest, closest_);
+    query_possible(closest, uncertainty, ask, closest_);
     complete_ = complete_ && closest_.complete;
     limit_reached_ = limit_reached_ || closest_.limit_reached;
     minimum_ = closest_.closest();
     minimum_complete_ = closest_.complete;
-    minimum_lower_ = closest_.minimum_lower();
+    minimum_lower_ = uncertainty.is_none() ? closest_.minimum_lower()
+                                           : std::max(minimum_lower_, closest_.minimum_lower());
     counts_ += closest_.counts;
+  }
+  minimum_upper_ = minimum_ == nullptr ? std::numeric_limits<double>::infinity() : minimum_->upper;
+  uncertain_contacts_ = 0;
+  if (!uncertainty.is_none()) {
+    // A pair that is told to be further apart may be known better.
+    for (const fiber::Contact& contact : contacts_.contacts) {
+      minimum_upper_ = std::min(minimum_upper_, contact.upper);
+      uncertain_contacts_ += is_certain(contact, options.margin) ? 0 : 1;
+    }
   }
   minimum_time_ = stopwatch.seconds() - contact_time_;
 }
 
 std::string Detection::limit_problem(const fiber::QueryOptions& options) const {
   const std::size_t count = contacts_.contacts.size();
-  const bool all_contacts = options.contact_limit > 0 && count == options.contact_limit;
+  // Where bodies are uncertain, impossible pairs have counted, too.
+  const bool all_contacts =
+      options.contact_limit > 0 && (count == options.contact_limit || complete_);
   const bool of_limited =
       options.type == fiber::QueryType::LIMITED && complete_ && count == options.max_contacts;
   if (!limit_reached_ || of_limited) {
@@ -101,10 +115,6 @@ double Detection::contact_error() const {
   return error;
 }
 
-double Detection::minimum_upper() const {
-  return minimum_ == nullptr ? std::numeric_limits<double>::infinity() : minimum_->upper;
-}
-
 const fiber::ProximityEngine& Detector::engine() {
   if (new_fibers_ != nullptr) {
     const Stopwatch stopwatch;
@@ -120,7 +130,7 @@ void Detector::detect(const fiber::QueryOptions& options, bool wants_minimum, Bu
     update_time_ = 0.0;
     const fiber::ProximityEngine& updated = engine();
     budget.ask(options, [&](const fiber::QueryOptions& in_time) {
-      detection_.detect(in_time, wants_minimum,
+      detection_.detect(in_time, wants_minimum, uncertainty_,
                         [&](const fiber::QueryOptions& asked, fiber::QueryResult& result) {
                           updated.query(asked, result);
                         });

@@ -1,13 +1,17 @@
 #pragma once
 
-#include <functional>
+#include <cstddef>
+#include <limits>
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "fiber_proximity/query/contact.hpp"
 #include "fiber_proximity/query/engine.hpp"
 #include "fiber_proximity/query/options.hpp"
 #include "src/ros/detection/budget.hpp"
+#include "src/ros/detection/uncertainty.hpp"
 
 namespace fiber_proximity_ros {
 
@@ -15,13 +19,13 @@ namespace fiber_proximity_ros {
 /// and the environment.
 class Detection {
  public:
-  using Ask = std::function<void(const fiber::QueryOptions&, fiber::QueryResult&)>;
-
   /// Asks for the contacts and, where these do not tell, for the closest pair whatever the margin.
   /// A deadline is one for both.
   /// @param wants_minimum whether to ask for the closest pair
+  /// @param uncertainty   of the bodies: contacts are the possible ones then
   /// @throws std::invalid_argument for options that do not validate
-  void detect(const fiber::QueryOptions& options, bool wants_minimum, const Ask& ask);
+  void detect(const fiber::QueryOptions& options, bool wants_minimum,
+              const Uncertainty& uncertainty, const Ask& ask);
 
   /// Nothing could be asked: nothing is known.
   void fail(const std::string& reason);
@@ -35,6 +39,8 @@ class Detection {
   /// Whether no pair can be closer than minimum() for want of looking.
   bool is_minimum_complete() const { return !has_failed() && minimum_complete_; }
   bool is_limit_reached() const { return limit_reached_; }
+  /// Contacts that are not certain as their bodies are uncertain.
+  std::size_t uncertain_contacts() const { return uncertain_contacts_; }
   /// Whether these options asked for all contacts, and there are no others.
   bool has_all_of(const fiber::QueryOptions& options) const {
     return options.type == fiber::QueryType::ALL && contacts_.complete && !contacts_.limit_reached;
@@ -46,7 +52,7 @@ class Detection {
   std::string cut_off(const fiber::QueryOptions& options) const;
   /// [m] Bounds of the true distance of the closest pair; infinite where there is no pair.
   double minimum_lower() const { return minimum_lower_; }
-  double minimum_upper() const;
+  double minimum_upper() const { return minimum_upper_; }
   double contact_error() const;  ///< [m] by which a contact's distance is wrong at most
   const fiber::QueryCounts& counts() const { return counts_; }
 
@@ -60,8 +66,10 @@ class Detection {
   bool complete_ = true;
   bool minimum_complete_ = true;
   bool limit_reached_ = false;
+  std::size_t uncertain_contacts_ = 0;
   std::string failure_;
   double minimum_lower_ = 0.0;
+  double minimum_upper_ = std::numeric_limits<double>::infinity();
   fiber::QueryCounts counts_;
   double contact_time_ = 0.0;
   double minimum_time_ = 0.0;
@@ -84,7 +92,11 @@ class Detector {
   const std::string& engine_name() const { return engine_name_; }
 
   /// The fibres to ask about from now on; they must live, unchanged, until the next call.
-  void set_fibers(const fiber::FiberAssembly& fibers) { new_fibers_ = &fibers; }
+  /// @param uncertainties [m] by fibre; empty for none
+  void set_fibers(const fiber::FiberAssembly& fibers, std::vector<double> uncertainties = {}) {
+    new_fibers_ = &fibers;
+    uncertainty_ = Uncertainty(std::move(uncertainties), Uncertainty::Bodies::BOTH);
+  }
 
   /// The engine, updated to the fibres.
   /// @throws std::invalid_argument for fibres the engine cannot take (AL-threaded: unequal ones)
@@ -114,6 +126,7 @@ class Detector {
   std::string engine_name_;
   std::unique_ptr<fiber::ProximityEngine> engine_;
   const fiber::FiberAssembly* new_fibers_ = nullptr;
+  Uncertainty uncertainty_;
   Detection detection_;
   double update_time_ = 0.0;
 };

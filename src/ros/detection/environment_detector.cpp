@@ -16,8 +16,9 @@ void EnvironmentDetector::detect(const fiber::QueryOptions& options, bool wants_
       std::exchange(environment_, scene_.environment.environment());
   update_time_ = scene_.environment_time + stopwatch.seconds();
   const fiber::AllowedPairs allowed = scene_.environment.allowed(scene_.fibers.names());
+  const Uncertainty uncertainty(scene_.fibers.uncertainties(), Uncertainty::Bodies::A);
   budget.ask(options, [&](const fiber::QueryOptions& in_time) {
-    detection_.detect(in_time, wants_minimum,
+    detection_.detect(in_time, wants_minimum, uncertainty,
                       [&](const fiber::QueryOptions& asked, fiber::QueryResult& result) {
                         environment_->query(scene_.fibers.fibers(), asked, allowed, result);
                       });
@@ -28,7 +29,8 @@ void EnvironmentDetector::detect(const fiber::QueryOptions& options, bool wants_
   motion_.reset();
   motion_time_ = 0.0;
   const bool was_tracked = std::exchange(is_tracked_, is_tracked);
-  const bool is_asked = step != nullptr && was_tracked && is_tracked;
+  // When something came is known of the told points only.
+  const bool is_asked = step != nullptr && was_tracked && is_tracked && uncertainty.is_none();
   is_motion_left_out_ = is_asked && !budget.allows(Stage::ENVIRONMENT_MOTION);
   if (is_asked && !is_motion_left_out_) {
     budget.enter(Stage::ENVIRONMENT_MOTION);

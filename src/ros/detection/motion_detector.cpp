@@ -20,6 +20,9 @@ void MotionDetector::take(InputSet& fibers, bool keeps_fibers) {
     newest.message = fibers.message();
   }
   step_.advance(std::move(newest));
+  if (step_.is_motion() && !fibers.uncertainties().empty()) {
+    step_.refuse("when contacts came is not known of inputs with an uncertainty");
+  }
 }
 
 std::optional<KnownMotion> MotionDetector::detect(const fiber::QueryOptions& options,

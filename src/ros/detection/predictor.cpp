@@ -8,6 +8,7 @@
 
 #include "src/ros/detection/detector.hpp"
 #include "src/ros/detection/environment_detector.hpp"
+#include "src/ros/detection/uncertainty.hpp"
 
 namespace fiber_proximity_ros {
 namespace {
@@ -39,6 +40,17 @@ PredictedContact earliest_of(const fiber::MotionResult& result, double horizon,
   message.fiber_b = earliest->fiber_b;
   message.segment_b = earliest->segment_b;
   return message;
+}
+
+/// What is left of a prediction of told points with the possible margin: when no contact can be
+/// before, not when one is certain to be.
+void keep_possible(PredictedContact& message) {
+  message.certain = false;
+  message.time_upper = std::numeric_limits<double>::infinity();
+  if (message.touching > 0) {
+    // One of these may be apart yet, and touch at any moment.
+    message.time_lower = 0.0;
+  }
 }
 
 }  // namespace
@@ -180,6 +192,9 @@ void Predictor::find_contacts(const fiber::QueryOptions& options,
   // Takes as long as for the first one, is asked once for both, and is not reported.
   motion.type = fiber::MotionType::ALL;
   motion.contact_limit = 0;
+  using Bodies = Uncertainty::Bodies;
+  const std::vector<double>& uncertainties = scene_.fibers.uncertainties();
+  motion.margin = Uncertainty(uncertainties, Bodies::BOTH).possible_margin(options.margin);
   budget.ask(motion, [&](fiber::MotionOptions in_time) {
     // Half of the time is for objects.
     in_time.deadline = has_objects ? 0.5 * in_time.deadline : in_time.deadline;
@@ -194,6 +209,7 @@ void Predictor::find_contacts(const fiber::QueryOptions& options,
   if (has_objects) {
     motion.type = fiber::MotionType::FIRST;
     motion.contact_limit = options.contact_limit;
+    motion.margin = Uncertainty(uncertainties, Bodies::A).possible_margin(options.margin);
     const std::shared_ptr<const fiber::Environment> around = scene_.environment.environment();
     budget.ask(motion, [&](const fiber::MotionOptions& in_time) {
       around->query_motion(before_, after_, *around, in_time,
@@ -206,6 +222,12 @@ void Predictor::find_contacts(const fiber::QueryOptions& options,
   }
   message.environment =
       earliest_of(result_, options_.horizon, [](const MotionContact&) { return true; });
+  if (!uncertainties.empty()) {
+    message.assumption += "; contacts are those that the inputs' uncertainty allows";
+    keep_possible(message.same_fiber);
+    keep_possible(message.different_fibers);
+    keep_possible(message.environment);
+  }
 }
 
 }  // namespace fiber_proximity_ros

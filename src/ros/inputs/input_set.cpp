@@ -166,9 +166,25 @@ void InputSet::merge() {
     }
   }
   merged_.merge(fresh);
+  merge_uncertainties();
   header_.frame_id = frame_.name();
   header_.stamp = fresh.empty() ? last_time_ : merged_.message()->stamp;
   work_time_ += stopwatch.seconds();
+}
+
+void InputSet::merge_uncertainties() {
+  uncertainties_.clear();
+  bool is_any_uncertain = false;
+  for (const std::unique_ptr<Input>& input : inputs_) {
+    if (input->is_fresh()) {
+      const double uncertainty = input->options().uncertainty;
+      is_any_uncertain = is_any_uncertain || uncertainty > 0.0;
+      uncertainties_.insert(uncertainties_.end(), input->fibers().fiber_count(), uncertainty);
+    }
+  }
+  if (!is_any_uncertain) {
+    uncertainties_.clear();
+  }
 }
 
 }  // namespace fiber_proximity_ros

@@ -152,6 +152,7 @@ InputOptions read_input_options(const XmlRpcValue& entry, double default_radius)
   read_key(entry, "type", options.type);
   read_key(entry, "name", options.name);
   read_key(entry, "radius", options.radius);
+  read_key(entry, "uncertainty", options.uncertainty);
   options.missing_points = read_missing_points(entry);
   read_key(entry, "required", options.required);
   read_key(entry, "max_pairs", options.cost.max_pairs);

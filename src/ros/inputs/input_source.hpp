@@ -29,6 +29,9 @@ struct InputOptions {
 
   double radius{};  ///< [m] where the message has none
 
+  /// [m] Every true point is at most this far from the one that the message tells.
+  double uncertainty{};
+
   MissingPoints missing_points = MissingPoints::REFUSE;
 
   bool required = true;  ///< answers without its fibres are incomplete

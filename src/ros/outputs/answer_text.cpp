@@ -90,11 +90,20 @@ std::string tolerance_text(const fiber::QueryOptions& asked) {
   return text;
 }
 
+/// How many contacts of inputs with an uncertainty are certain.
+std::string certain_text(const PairsAnswer& answer) {
+  return answer.uncertain == 0
+             ? ""
+             : ", " + std::to_string(answer.contacts - answer.uncertain) + " of them certain";
+}
+
 /// The contacts: how many, and whether that is all.
 std::string contacts_text(const PairsAnswer& answer) {
   const bool is_of_fiber_pairs = answer.asked.type == fiber::QueryType::FIBER_PAIRS;
   const std::string count = std::to_string(answer.contacts);
-  const std::string noun = is_of_fiber_pairs ? " pairs of bodies" : " contacts";
+  const std::string noun = std::string(answer.uncertain == 0 ? " " : " possible ") +
+                           (is_of_fiber_pairs ? "pairs of bodies" : "contacts") +
+                           certain_text(answer);
   const std::string error =
       answer.contacts == 0 ? ""
                            : " (each to " + length_text(answer.contact_error, Rounding::UP) + ")";
@@ -107,7 +116,7 @@ std::string contacts_text(const PairsAnswer& answer) {
   }
   const std::string tolerance = is_of_fiber_pairs ? tolerance_text(answer.asked) : "";
   if (!answer.limit_reached) {
-    return count + " of " + count + noun + error + tolerance;
+    return (answer.uncertain == 0 ? count + " of " + count : count) + noun + error + tolerance;
   }
   return "the closest " + count + noun + error + tolerance +
          ", any other >= " + length_text(answer.others_lower, Rounding::DOWN);
@@ -152,7 +161,9 @@ std::string pairs_text(const PairsAnswer& answer) {
   switch (answer.asked.type) {
     case fiber::QueryType::FIRST:
       // Which pair it is nobody has asked, and the closest may be another one.
-      return (is_found ? "in contact" : no_contact_text(answer)) +
+      return (!is_found               ? no_contact_text(answer)
+              : answer.uncertain == 0 ? "in contact"
+                                      : "perhaps in contact") +
              (answer.minimum ? ", " + closest_text(answer) : "");
     case fiber::QueryType::CLOSEST:
       return (is_found ? "" : no_contact_text(answer) + ", ") + closest_text(answer);

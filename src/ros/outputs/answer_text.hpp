@@ -20,6 +20,7 @@ struct PairsAnswer {
   bool limit_reached = false;  ///< as QueryResult has it
 
   std::size_t contacts = 0;    ///< that were found
+  std::size_t uncertain = 0;   ///< of these, that are only possible, as inputs are uncertain
   double contact_error = 0.0;  ///< [m] the most by which the distance of one of them is wrong
   double others_lower = 0.0;   ///< [m] no other pair has a smaller true distance
 

@@ -115,6 +115,7 @@ void ContactOutput::publish(const ContactAnswer& answer, bool has_gradients, dou
   const nanoseconds since = motion != nullptr ? motion->time.lower : now;
   const auto fill_in = [&, type_b = type_b_](const fiber::Contact& contact, Contact& filled) {
     to_message(contact, Contact::FIBER, type_b, filled);
+    filled.certain = is_certain(contact, options.margin);
     filled.gradients.clear();  // of an earlier message
     if (has_gradients) {
       add_gradients(filled);

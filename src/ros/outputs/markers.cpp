@@ -192,6 +192,20 @@ void draw_incomplete(const std::vector<std::string>& unknown, const MarkerScale&
       .color = color(palette::incomplete);
 }
 
+/// The last line, of the times of an answer's parts, breaks behind commas where it gets longer than
+/// the others.
+std::string wrapped(std::string text) {
+  constexpr std::size_t columns = 50;
+  std::size_t begin = text.rfind('\n') + 1;  // 0 if there is none
+  for (std::size_t i = begin; i + 1 < text.size(); ++i) {
+    if (text[i] == ',' && i - begin >= columns) {
+      begin = ++i;
+      text[i] = '\n';
+    }
+  }
+  return text;
+}
+
 /// One of the two strands of a crossing.
 struct Strand {
   Vector3d at;     // [m] the crossing, moved out of the fibre towards the viewer
@@ -286,8 +300,9 @@ void MarkerBuilder::build(const std_msgs::Header& header, const Drawing& drawing
     draw_nearest(fibers, *minimum, scale, canvas);
   }
   if (options.show_cost) {
-    canvas.add_text("cost", text_height * scale.extent, scale.top + 0.15 * scale.extent * scale.up,
-                    cost);
+    constexpr double smaller = 0.7;
+    canvas.add_text("cost", smaller * text_height * scale.extent,
+                    scale.top + 0.15 * scale.extent * scale.up, wrapped(cost));
   }
   if (options.show_boxes && !boxes.empty()) {
     draw_boxes(boxes, scale.extent, canvas);

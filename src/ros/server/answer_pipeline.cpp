@@ -42,7 +42,8 @@ void AnswerPipeline::answer(const AnswerCause& cause) {
   const ProximityConfig& config = settings_.config();
   begin();
   if (cause.has_new_fibers) {
-    detector_.set_fibers(scene_.fibers.fibers());
+    const fiber::FiberAssembly& fibers = scene_.fibers.fibers();
+    detector_.set_fibers(fibers, scene_.fibers.uncertainties());
     motion_.take(scene_.fibers, config.continuous);
     crossings_.forget();
   } else {
@@ -166,6 +167,7 @@ void AnswerPipeline::tell_pairs() {
     pairs.has_failed = found.has_failed();
     pairs.limit_reached = found.contacts().limit_reached;
     pairs.contacts = found.contacts().contacts.size();
+    pairs.uncertain = found.uncertain_contacts();
     pairs.contact_error = found.contact_error();
     pairs.others_lower = found.contacts().others_lower;
     if (found.minimum() != nullptr) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <numeric>
 #include <stdexcept>
@@ -11,6 +12,7 @@
 #include "fiber_proximity/ros/conversions.hpp"
 #include "src/geometry/swept_fibers.hpp"
 #include "src/ros/detection/detector.hpp"
+#include "src/ros/detection/uncertainty.hpp"
 #include "src/ros/inputs/fixed_frame.hpp"
 #include "src/ros/server/query_options.hpp"
 #include "src/text/quote.hpp"
@@ -113,6 +115,7 @@ fiber::FiberPath read_motion(const CheckFibers::Request& request, std::size_t mo
 }
 
 /// The fibres that candidates are checked against: all, or all but those that they stand in for.
+/// Where they are uncertain, candidates are checked against fibres that enclose the true ones.
 class PresentFibers {
  public:
   /// Refers to the target. With ignore_fibers there are none, and none are to be replaced.
@@ -131,6 +134,11 @@ class PresentFibers {
   /// The index among all fibres of the node of one that is present.
   std::uint32_t number_among_all(std::uint32_t fiber) const { return kept_[fiber]; }
 
+  /// [m] How far the true points of one that is present may be from the told ones.
+  double uncertainty(std::uint32_t fiber) const {
+    return uncertainties_.empty() ? 0.0 : uncertainties_[fiber];
+  }
+
  private:
   void leave_out(const QueryTarget& target, const std::vector<std::string>& replaced) {
     const std::vector<std::string>& names = target.scene.fibers.names();
@@ -145,8 +153,15 @@ class PresentFibers {
       }
     }
     surroundings_.fibers = target.engine;
-    if (!replaced.empty()) {
+    const std::vector<double>& uncertainties = target.scene.fibers.uncertainties();
+    if (!replaced.empty() || !uncertainties.empty()) {
       others_ = fiber::select_fibers(target.fibers, kept_);
+      if (!uncertainties.empty()) {
+        for (const std::uint32_t fiber : kept_) {
+          uncertainties_.push_back(uncertainties[fiber]);
+        }
+        others_ = enclosing_fibers(others_, uncertainties_);
+      }
       engine_of_others_ = fiber::make_engine("run_tree");
       engine_of_others_->update(others_);
       surroundings_.fibers = engine_of_others_.get();
@@ -154,42 +169,68 @@ class PresentFibers {
   }
 
   std::vector<std::uint32_t> kept_;
+  std::vector<double> uncertainties_;  // [m] by fibre that is kept; empty: none is uncertain
   fiber::FiberAssembly others_;
   std::unique_ptr<fiber::ProximityEngine> engine_of_others_;
   fiber::Surroundings surroundings_;
 };
 
-void append(const fiber::QueryResult& found, std::uint8_t body_b, CheckFibers::Response& response) {
-  for (const fiber::Contact& contact : found.contacts) {
-    to_message(contact, Contact::CANDIDATE, body_b, response.contacts.emplace_back());
-  }
+std::uint32_t fiber_b_of(const fiber::Contact& contact) { return contact.fiber_b; }
+std::uint32_t fiber_b_of(const fiber::PathContact& contact) { return contact.where.fiber_b; }
+
+/// Writes a contact whose body b has this uncertainty.
+/// @returns whether the pair is certain to be in contact
+bool append(const fiber::Contact& contact, double uncertainty, std::uint8_t body_b, double margin,
+            CheckFibers::Response& response) {
+  const fiber::Contact told = told_contact(contact, uncertainty);
+  Contact& message = response.contacts.emplace_back();
+  to_message(told, Contact::CANDIDATE, body_b, message);
+  message.certain = is_certain(told, margin);
+  return uncertainty == 0.0 || message.certain != 0;
 }
 
-void append(const fiber::PathContacts& found, std::uint8_t body_b,
+bool append(const fiber::PathContact& contact, double uncertainty, std::uint8_t body_b,
+            double margin, CheckFibers::Response& response) {
+  const bool is_known = append(contact.where, uncertainty, body_b, margin, response);
+  response.contacts.back().certain =
+      is_known && (contact.when.certain || response.contacts.back().certain != 0);
+  response.time_lower.push_back(contact.when.lower);
+  // Of a contact that is only possible there is no time at which it is certain.
+  response.time_upper.push_back(is_known ? contact.when.upper
+                                         : std::numeric_limits<double>::infinity());
+  return is_known;
+}
+
+/// @param present the fibres that bodies b are; null for other bodies
+/// @returns whether one of the pairs is certain to be in contact
+template <class Found>
+bool append(const Found& found, std::uint8_t body_b, const PresentFibers* present, double margin,
             CheckFibers::Response& response) {
-  for (const fiber::PathContact& contact : found.contacts) {
-    to_message(contact.where, Contact::CANDIDATE, body_b, response.contacts.emplace_back());
-    response.time_lower.push_back(contact.when.lower);
-    response.time_upper.push_back(contact.when.upper);
+  bool is_any_certain = false;
+  for (const auto& contact : found.contacts) {
+    const std::uint32_t b = fiber_b_of(contact);
+    const double uncertainty = present == nullptr ? 0.0 : present->uncertainty(b);
+    is_any_certain = append(contact, uncertainty, body_b, margin, response) || is_any_certain;
+    if (present != nullptr) {
+      response.contacts.back().fiber_b = present->number_among_all(b);
+    }
   }
+  return is_any_certain;
 }
 
 /// @param check         a fiber::FiberCheck or fiber::MotionCheck
 /// @param was_all_there whether there was all that it was to be checked against
 template <class Check>
-void append(const Check& check, const PresentFibers& present, bool was_all_there,
+void append(const Check& check, const PresentFibers& present, bool was_all_there, double margin,
             CheckFibers::Response& response) {
+  bool has_contact = append(check.self, Contact::CANDIDATE, nullptr, margin, response);
+  has_contact = append(check.fibers, Contact::FIBER, &present, margin, response) || has_contact;
+  has_contact =
+      append(check.environment, Contact::OBJECT, nullptr, margin, response) || has_contact;
   response.free.push_back(check.is_free() && was_all_there);
-  response.decided.push_back(check.has_contact() || response.free.back() != 0);
+  response.decided.push_back(has_contact || response.free.back() != 0);
   response.complete.push_back(check.is_complete() && was_all_there);
   response.limit_reached = response.limit_reached || check.is_limit_reached();
-  append(check.self, Contact::CANDIDATE, response);
-  const std::size_t first = response.contacts.size();
-  append(check.fibers, Contact::FIBER, response);
-  for (std::size_t i = first; i < response.contacts.size(); ++i) {
-    response.contacts[i].fiber_b = present.number_among_all(response.contacts[i].fiber_b);
-  }
-  append(check.environment, Contact::OBJECT, response);
   response.offsets.push_back(static_cast<std::uint32_t>(response.contacts.size()));
 }
 
@@ -241,7 +282,7 @@ void answer_all(const CheckFibers::Request& request, const QueryTarget& target,
                           queries_per_candidate * items.size());
     check(items, surroundings, options, checks);
     for (const Check& each : checks) {
-      append(each, present, known.was_all_there(), response);
+      append(each, present, known.was_all_there(), options.margin, response);
       is_cut_off = is_cut_off || !each.is_complete();
     }
   }

@@ -138,11 +138,7 @@ bool MeasureService::measure(MeasureSettings::Request& request,
     choices.engine = engine_;
     choices.engine_options.threads = 1;
     const std::vector<std::string> questions = questions_of(material.asked.type);
-    std::vector<fiber::AnswerSetting> settings;
-    for (const std::string& question : questions) {
-      const auto more = fiber::settings_of(question, choices);
-      settings.insert(settings.end(), more.begin(), more.end());
-    }
+    const std::vector<fiber::AnswerSetting> settings = fiber::settings_of(questions, choices);
     const fiber::SettingMeasurement measured =
         fiber::measure_settings(frames, settings, budget, max_answers, [](const std::string&) {});
     for (const std::string& question : questions) {

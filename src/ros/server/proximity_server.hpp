@@ -18,10 +18,10 @@ namespace fiber_proximity_ros {
 ///
 /// Publishes ~contacts, ~environment_contacts, ~contact_events, ~time_to_contact, ~crossings (see
 /// CrossingsOutput), ~fibers, ~markers, ~statistics, ~comparison and /diagnostics; serves ~compare,
-/// and what
-/// serve_queries(), MeasureService and EnvironmentInputs serve. Each set of messages that have arrived
-/// gives one answer (see AnswerPipeline). An answer is given again where somebody has begun to
-/// listen, where other things are unknown than before, and each ~heartbeat while something is.
+/// and what serve_queries(), MeasureService and EnvironmentInputs serve. Each set of messages that
+/// have arrived gives one answer (see AnswerPipeline). An answer is given again where somebody has
+/// begun to listen, where other things are unknown than before, and each ~heartbeat while something
+/// is.
 class ProximityServer {
  public:
   /// @throws std::invalid_argument for a bad parameter (see read_server_options) or an unknown

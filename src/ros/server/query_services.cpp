@@ -11,6 +11,7 @@
 #include "fiber_proximity/query/contact.hpp"
 #include "fiber_proximity/ros/conversions.hpp"
 #include "src/ros/detection/environment_detector.hpp"
+#include "src/ros/detection/uncertainty.hpp"
 #include "src/ros/inputs/fixed_frame.hpp"
 #include "src/ros/server/check_service.hpp"
 #include "src/ros/server/query_options.hpp"
@@ -61,8 +62,17 @@ fiber::FiberAssembly to_assembly(const QueryShape& shape, const FixedFrame& fram
 void query_shape(const QueryTarget& target, std::uint8_t against, const fiber::FiberAssembly& shape,
                  const fiber::QueryOptions& options, fiber::QueryResult& of_fibers,
                  fiber::QueryResult& result) {
+  const Uncertainty uncertainty(target.scene.fibers.uncertainties(), Uncertainty::Bodies::B);
+  const auto query_fibers = [&](fiber::QueryResult& found) {
+    query_possible(
+        options, uncertainty,
+        [&](const fiber::QueryOptions& asked, fiber::QueryResult& answered) {
+          target.engine->query_shape(shape, asked, answered);
+        },
+        found);
+  };
   if (against == QueryProximity::Request::FIBERS) {
-    target.engine->query_shape(shape, options, result);
+    query_fibers(result);
     return;
   }
   target.environment.query(shape, options, {}, result);
@@ -70,12 +80,12 @@ void query_shape(const QueryTarget& target, std::uint8_t against, const fiber::F
     contact.fiber_b += static_cast<std::uint32_t>(target.fibers.fiber_count());
   }
   if (against == QueryProximity::Request::EVERYTHING) {
-    target.engine->query_shape(shape, options, of_fibers);
+    query_fibers(of_fibers);
     fiber::merge_results(options, of_fibers, result);
   }
 }
 
-void append_contacts(const fiber::QueryResult& result, std::uint32_t shape,
+void append_contacts(const fiber::QueryResult& result, double margin, std::uint32_t shape,
                      std::uint32_t fiber_count, QueryProximity::Response& response) {
   for (const fiber::Contact& contact : result.contacts) {
     const bool is_object = contact.fiber_b >= fiber_count;
@@ -83,6 +93,7 @@ void append_contacts(const fiber::QueryResult& result, std::uint32_t shape,
     to_message(contact, fiber_proximity::Contact::SHAPE,
                is_object ? fiber_proximity::Contact::OBJECT : fiber_proximity::Contact::FIBER,
                message);
+    message.certain = is_certain(contact, margin);
     message.fiber_a = shape;
     message.fiber_b -= is_object ? fiber_count : 0;
   }
@@ -127,7 +138,8 @@ void answer(const QueryProximity::Request& request, const QueryTarget& target,
                   to_assembly(request.shapes[i], target.scene.fibers.frame()), options, of_fibers,
                   result);
     });
-    append_contacts(result, i, static_cast<std::uint32_t>(target.fibers.fiber_count()), response);
+    append_contacts(result, options.margin, i,
+                    static_cast<std::uint32_t>(target.fibers.fiber_count()), response);
     response.minimum_lower.push_back(known.lower(result.minimum_lower(), nothing_known));
     is_cut_off = is_cut_off || !result.complete;
     response.limit_reached = response.limit_reached || result.limit_reached;
