@@ -1,6 +1,7 @@
 # Nodes, nodelets, launch files, and what a catkin workspace installs.
 
 add_library(fiber_proximity_ros SHARED
+  src/ros/detection/budget.cpp
   src/ros/detection/detector.cpp
   src/ros/detection/environment_detector.cpp
   src/ros/detection/fiber_step.cpp

@@ -213,6 +213,16 @@ TEST(AnswerText, TellsTheTimeOfTheWholeAnswerAndOfItsParts) {
   answer.goes_on = true;
   EXPECT_EQ(answer_text(answer),
             pairs + "0.35 ms so far: contacts 0.10, prediction 0.00 (incomplete), others 0.25");
+  answer.goes_on = false;
+  answer.deadline = 0.0005;
+  EXPECT_EQ(answer_text(answer),
+            pairs + "0.35 of 0.50 ms: contacts 0.10, prediction 0.00 (incomplete), others 0.25");
+  answer.parts[0].seconds = 0.00051;
+  answer.total_time = 0.0009;
+  EXPECT_EQ(answer_text(answer),
+            pairs +
+                "0.90 of 0.50 ms: merge 0.51, contacts 0.10, prediction 0.00 (incomplete), "
+                "others 0.29; updates alone take longer");
 }
 
 TEST(AnswerText, TellsWhichContactsOfUncertainInputsAreCertain) {

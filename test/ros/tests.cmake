@@ -41,6 +41,7 @@ fiber_proximity_gtest(stamps_test
   LIBRARIES fiber_proximity_ros
 )
 fiber_proximity_gtest(detector_test
+  ros/budget_test.cpp
   ros/detector_test.cpp
   ros/fiber_step_test.cpp
   ros/uncertainty_test.cpp
@@ -191,7 +192,8 @@ endforeach()
 
 add_rostest_gtest(answer_text_node_test
   ros/answer_text.test
-  ros/answer_text_node_test.cpp
+  ros/answer_text_node_test.cpp  # first: asks before an input has come
+  ros/answer_truth_test.cpp
   ros/main.cpp
 )
 target_link_libraries(answer_text_node_test

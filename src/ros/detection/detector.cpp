@@ -94,6 +94,12 @@ std::string cut_off_text(const std::string& pairs, const fiber::PairOptions& opt
   return text.str();
 }
 
+std::string no_time_text(const fiber::PairOptions& options) {
+  std::ostringstream text;
+  text << "the deadline of " << options.deadline << " s leaves no time for it";
+  return text.str();
+}
+
 std::string Detection::cut_off(const fiber::QueryOptions& options) const {
   if (complete_) {
     return "";
@@ -119,14 +125,16 @@ const fiber::ProximityEngine& Detector::engine() {
   return *engine_;
 }
 
-void Detector::detect(const fiber::QueryOptions& options, bool wants_minimum) {
+void Detector::detect(const fiber::QueryOptions& options, bool wants_minimum, Budget& budget) {
   try {
     update_time_ = 0.0;
     const fiber::ProximityEngine& updated = engine();
-    detection_.detect(options, wants_minimum, uncertainty_,
-                      [&](const fiber::QueryOptions& asked, fiber::QueryResult& result) {
-                        updated.query(asked, result);
-                      });
+    budget.ask(options, [&](const fiber::QueryOptions& in_time) {
+      detection_.detect(in_time, wants_minimum, uncertainty_,
+                        [&](const fiber::QueryOptions& asked, fiber::QueryResult& result) {
+                          updated.query(asked, result);
+                        });
+    });
   } catch (const std::invalid_argument& error) {
     detection_.fail(error.what());
     throw;

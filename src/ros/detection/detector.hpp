@@ -10,6 +10,7 @@
 #include "fiber_proximity/query/contact.hpp"
 #include "fiber_proximity/query/engine.hpp"
 #include "fiber_proximity/query/options.hpp"
+#include "src/ros/detection/budget.hpp"
 #include "src/ros/detection/uncertainty.hpp"
 
 namespace fiber_proximity_ros {
@@ -77,6 +78,9 @@ class Detection {
 /// The text in an answer about pairs that a deadline or a limit has left out.
 std::string cut_off_text(const std::string& pairs, const fiber::PairOptions& options);
 
+/// Why a part of an answer was left out.
+std::string no_time_text(const fiber::PairOptions& options);
+
 /// Contacts and closest pair of the newest fibres, from one engine whose update waits until it is
 /// asked something.
 class Detector {
@@ -101,7 +105,14 @@ class Detector {
   /// Finds the contacts and, if it is wanted, the closest pair whatever the margin.
   /// @throws std::invalid_argument for options that do not validate, and as engine(); nothing is
   ///         known then
-  void detect(const fiber::QueryOptions& options, bool wants_minimum = true);
+  /// @param budget of the answer, in whose current stage this is done
+  void detect(const fiber::QueryOptions& options, bool wants_minimum, Budget& budget);
+
+  /// Detects contacts and closest pair without other parts of an answer.
+  void detect(const fiber::QueryOptions& options, bool wants_minimum = true) {
+    Budget alone;
+    detect(options, wants_minimum, alone);
+  }
 
   /// The result of the last detect().
   const Detection& detection() const { return detection_; }

@@ -36,10 +36,14 @@ void FiberStep::rest() {
 }
 
 void FiberStep::refuse(const std::string& problem) {
+  pass_over(problem);
   is_motion_ = false;
+  set_static();
+}
+
+void FiberStep::pass_over(const std::string& problem) {
   problem_ = problem;
   ++problem_count_;
-  set_static();
 }
 
 void FiberStep::set_static() {

@@ -37,10 +37,13 @@ class FiberStep {
   /// It is no motion that can be looked at.
   void refuse(const std::string& problem);
 
+  /// It is a motion, and yet this answer does not look at it.
+  void pass_over(const std::string& problem);
+
   /// Whether both states are known and of one topology, and time went on.
   bool is_motion() const { return is_motion_; }
 
-  /// Why the states before and after were kept and yet there is no motion; empty otherwise.
+  /// Why the states before and after were kept and yet no motion is looked at; empty otherwise.
   const std::string& problem() const { return problem_; }
 
   /// How many such steps there were.

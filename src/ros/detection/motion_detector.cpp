@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "src/ros/detection/detector.hpp"
+
 namespace fiber_proximity_ros {
 
 void MotionDetector::take(InputSet& fibers, bool keeps_fibers) {
@@ -24,12 +26,20 @@ void MotionDetector::take(InputSet& fibers, bool keeps_fibers) {
 }
 
 std::optional<KnownMotion> MotionDetector::detect(const fiber::QueryOptions& options,
-                                                  bool reports_all, double tolerance) {
+                                                  bool reports_all, double tolerance,
+                                                  Budget& budget) {
   std::optional<KnownMotion> motion;
+  if (step_.is_motion() && !budget.allows(Stage::MOTION)) {
+    // Not told to the log, which takes longer than some deadlines: /diagnostics and statistics say
+    // it.
+    step_.pass_over(no_time_text(options));
+    return motion;
+  }
   if (step_.is_motion()) {
     try {
+      budget.enter(Stage::MOTION);
       motion.emplace(detect_motion_contacts(*engine_, {step_.motion(), step_.time(), tolerance},
-                                            options, reports_all, result_));
+                                            options, reports_all, result_, budget));
     } catch (const std::invalid_argument& error) {
       step_.refuse(error.what());
     }

@@ -32,10 +32,12 @@ class MotionDetector {
   /// @param options     of the query whose contacts there are now
   /// @param reports_all see KnownMotion
   /// @param tolerance   [m] see fiber::MotionOptions
-  /// @returns nothing where that cannot be told, which the log is told: the answer is of its stamp
-  ///          alone then. What it returns refers to this object, until the next call
+  /// @param budget      of the answer, in whose stage MOTION this is done, if there is time
+  /// @returns nothing where that cannot be told, which the log is told, or the budget has no time
+  ///          for it: the answer is of its stamp alone then. What it returns refers to this object,
+  ///          until the next call
   std::optional<KnownMotion> detect(const fiber::QueryOptions& options, bool reports_all,
-                                    double tolerance);
+                                    double tolerance, Budget& budget);
 
  private:
   std::unique_ptr<fiber::ProximityEngine> engine_;

@@ -62,9 +62,13 @@ void Predictor::configure(const PredictionOptions& options) {
   options_ = options;
 }
 
-void Predictor::predict(const fiber::QueryOptions& options,
-                        fiber_proximity::TimeToContact& message) {
+void Predictor::predict(const fiber::QueryOptions& options, fiber_proximity::TimeToContact& message,
+                        Budget& budget) {
+  if (budget.allows(Stage::PREDICTION)) {
+    budget.enter(Stage::PREDICTION);
+  }
   take_frames();
+  is_cut_off_ = false;
   message = {};
   message.header = scene_.fibers.header();
   message.fiber_names = scene_.fibers.names();
@@ -74,7 +78,7 @@ void Predictor::predict(const fiber::QueryOptions& options,
       "each point keeps the velocity of the line of least squares through its places in the last "
       "messages of its input, and objects stand still";
   try {
-    find_contacts(options, message);
+    find_contacts(options, message, budget);
   } catch (const std::invalid_argument& error) {
     message.same_fiber = message.different_fibers = message.environment = PredictedContact();
     message.problem = error.what();
@@ -93,10 +97,9 @@ void Predictor::limit_to_known(const fiber::QueryOptions& options,
   };
   Completeness all = scene_.knowledge.completeness(About::FIBERS_AND_ENVIRONMENT);
   const Completeness of_fibers = scene_.knowledge.completeness(About::FIBERS);
-  is_cut_off_ = false;
   for (const PredictedContact* contact :
        {&message.same_fiber, &message.different_fibers, &message.environment}) {
-    is_cut_off_ = is_cut_off_ || !contact->complete;
+    is_cut_off_ = is_cut_off_ || (message.problem.empty() && !contact->complete);
   }
   limit(of_fibers, message.same_fiber);
   limit(of_fibers, message.different_fibers);
@@ -164,9 +167,14 @@ bool Predictor::predict_places(fiber_proximity::TimeToContact& message) {
 }
 
 void Predictor::find_contacts(const fiber::QueryOptions& options,
-                              fiber_proximity::TimeToContact& message) {
+                              fiber_proximity::TimeToContact& message, Budget& budget) {
   if (!scene_.fibers.is_fresh()) {
     message.problem = "there are no fibres";
+    return;
+  }
+  if (!budget.allows(Stage::PREDICTION)) {
+    is_cut_off_ = true;
+    message.problem = no_time_text(options);
     return;
   }
   if (!predict_places(message)) {
@@ -179,6 +187,7 @@ void Predictor::find_contacts(const fiber::QueryOptions& options,
   after_ = before_;
   after_.update_points(points_);
   engine_->update_motion(before_, after_);
+  const bool has_objects = scene_.environment.is_used();
   fiber::MotionOptions motion = fiber::motion_options(options, options_.tolerance);
   // Takes as long as for the first one, is asked once for both, and is not reported.
   motion.type = fiber::MotionType::ALL;
@@ -186,20 +195,26 @@ void Predictor::find_contacts(const fiber::QueryOptions& options,
   using Bodies = Uncertainty::Bodies;
   const std::vector<double>& uncertainties = scene_.fibers.uncertainties();
   motion.margin = Uncertainty(uncertainties, Bodies::BOTH).possible_margin(options.margin);
-  engine_->query_motion(motion, result_);
+  budget.ask(motion, [&](fiber::MotionOptions in_time) {
+    // Half of the time is for objects.
+    in_time.deadline = has_objects ? 0.5 * in_time.deadline : in_time.deadline;
+    engine_->query_motion(in_time, result_);
+  });
   message.same_fiber = earliest_of(result_, options_.horizon, [](const MotionContact& contact) {
     return contact.fiber_a == contact.fiber_b;
   });
   message.different_fibers =
       earliest_of(result_, options_.horizon,
                   [](const MotionContact& contact) { return contact.fiber_a != contact.fiber_b; });
-  if (scene_.environment.is_used()) {
+  if (has_objects) {
     motion.type = fiber::MotionType::FIRST;
     motion.contact_limit = options.contact_limit;
     motion.margin = Uncertainty(uncertainties, Bodies::A).possible_margin(options.margin);
     const std::shared_ptr<const fiber::Environment> around = scene_.environment.environment();
-    around->query_motion(before_, after_, *around, motion,
-                         scene_.environment.allowed(scene_.fibers.names()), result_);
+    budget.ask(motion, [&](const fiber::MotionOptions& in_time) {
+      around->query_motion(before_, after_, *around, in_time,
+                           scene_.environment.allowed(scene_.fibers.names()), result_);
+    });
     message.object_names = object_names(*around);
   } else {
     result_ = fiber::MotionResult();

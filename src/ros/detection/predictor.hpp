@@ -11,6 +11,7 @@
 #include "fiber_proximity/TimeToContact.h"
 #include "fiber_proximity/query/engine.hpp"
 #include "src/geometry/point_velocities.hpp"
+#include "src/ros/detection/budget.hpp"
 #include "src/ros/detection/observed_scene.hpp"
 
 namespace fiber_proximity_ros {
@@ -35,7 +36,9 @@ class Predictor {
   bool is_on() const { return options_.horizon > 0.0; }
 
   /// Takes the new fibres and tells what they are about to touch.
-  void predict(const fiber::QueryOptions& options, fiber_proximity::TimeToContact& message);
+  /// @param budget of the answer, in whose stage PREDICTION this is done, if there is time
+  void predict(const fiber::QueryOptions& options, fiber_proximity::TimeToContact& message,
+               Budget& budget);
 
   /// Whether a deadline or a limit came before the end of the last prediction.
   bool is_cut_off() const { return is_cut_off_; }
@@ -55,7 +58,8 @@ class Predictor {
 
   void take_frames();
   bool predict_places(fiber_proximity::TimeToContact& message);
-  void find_contacts(const fiber::QueryOptions& options, fiber_proximity::TimeToContact& message);
+  void find_contacts(const fiber::QueryOptions& options, fiber_proximity::TimeToContact& message,
+                     Budget& budget);
   void limit_to_known(const fiber::QueryOptions& options, fiber_proximity::TimeToContact& message);
 
   ObservedScene& scene_;

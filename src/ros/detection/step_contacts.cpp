@@ -96,11 +96,12 @@ void add_what_is_gone(const std::vector<fiber::Contact>& now,
 
 KnownMotion detect_motion_contacts(fiber::ProximityEngine& engine, const ContinuousStep& step,
                                    const fiber::QueryOptions& options, bool reports_all,
-                                   fiber::MotionResult& result) {
+                                   fiber::MotionResult& result, Budget& budget) {
   const fiber::FiberMotion motion = step.motion;
   const fiber::MotionOptions asked = fiber::motion_options(options, step.tolerance);
   engine.update_motion(motion.before, motion.after);
-  engine.query_motion(asked, result);
+  budget.ask(asked,
+             [&](const fiber::MotionOptions& in_time) { engine.query_motion(in_time, result); });
   if (options.type == fiber::QueryType::FIBER_PAIRS) {
     keep_earliest_of_fiber_pairs(result.contacts);
   }
@@ -117,12 +118,14 @@ KnownMotion detect_motion_contacts(fiber::ProximityEngine& engine, const Continu
 KnownMotion detect_motion_contacts(const MovingEnvironment& environment,
                                    const fiber::AllowedPairs& allowed, const ContinuousStep& step,
                                    const fiber::QueryOptions& options, bool reports_all,
-                                   fiber::MotionResult& result) {
+                                   fiber::MotionResult& result, Budget& budget) {
   const fiber::FiberMotion motion = step.motion;
   const fiber::MotionOptions asked = fiber::motion_options(options, step.tolerance);
   const std::shared_ptr<const Environment> before = as_before(environment);
   const std::shared_ptr<const Environment> now = environment.now;
-  before->query_motion(motion.before, motion.after, *now, asked, allowed, result);
+  budget.ask(asked, [&](const fiber::MotionOptions& in_time) {
+    before->query_motion(motion.before, motion.after, *now, in_time, allowed, result);
+  });
   const auto first_contact = [=](const MotionContact& contact) {
     return before->first_contact(motion, *now, contact);
   };

@@ -10,6 +10,7 @@
 #include "fiber_proximity/query/engine.hpp"
 #include "fiber_proximity/query/motion.hpp"
 #include "src/query/touch_tracker.hpp"
+#include "src/ros/detection/budget.hpp"
 
 namespace fiber_proximity_ros {
 
@@ -38,10 +39,11 @@ struct KnownMotion {
 /// @param options     of the query whose contacts there are now
 /// @param reports_all see KnownMotion
 /// @param result      what is found refers to it
+/// @param budget      of the answer, in whose current stage this is done
 /// @throws std::invalid_argument for fibres that move too far, or that the engine cannot take
 KnownMotion detect_motion_contacts(fiber::ProximityEngine& engine, const ContinuousStep& step,
                                    const fiber::QueryOptions& options, bool reports_all,
-                                   fiber::MotionResult& result);
+                                   fiber::MotionResult& result, Budget& budget);
 
 /// The environment before a step and after it.
 struct MovingEnvironment {
@@ -56,7 +58,7 @@ struct MovingEnvironment {
 KnownMotion detect_motion_contacts(const MovingEnvironment& environment,
                                    const fiber::AllowedPairs& allowed, const ContinuousStep& step,
                                    const fiber::QueryOptions& options, bool reports_all,
-                                   fiber::MotionResult& result);
+                                   fiber::MotionResult& result, Budget& budget);
 
 /// A contact during the step from the answer before to this one.
 struct StepContact {

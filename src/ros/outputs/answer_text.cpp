@@ -193,11 +193,24 @@ std::string time_text(const Answer& answer) {
     }
   }
   told.push_back("others " + in_ms(std::max(others, 0.0)));
-  return in_ms(answer.total_time) + " ms" + (answer.goes_on ? " so far: " : ": ") +
-         fiber::join(told);
+  const bool has_deadline = answer.deadline > 0.0;
+  const bool is_too_short = has_deadline && update_time(answer) > answer.deadline;
+  return in_ms(answer.total_time) + (has_deadline ? " of " + in_ms(answer.deadline) : "") + " ms" +
+         (answer.goes_on ? " so far: " : ": ") + fiber::join(told) +
+         (is_too_short ? "; updates alone take longer" : "");
 }
 
 }  // namespace
+
+double update_time(const Answer& answer) {
+  double time = 0.0;
+  for (const AnswerPart& part : answer.parts) {
+    const bool is_update =
+        part.name == "merge" || part.name == "update" || part.name == "environment_update";
+    time += is_update ? part.seconds : 0.0;
+  }
+  return time;
+}
 
 std::string answer_text(const Answer& answer) {
   std::string text =

@@ -87,12 +87,21 @@ Diagnostics::Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& pri
   updater_.add("deadlines and limits", [this](Status& status) { report_deadlines(status); });
 }
 
-void Diagnostics::count(const std::string& cut_off) {
+void Diagnostics::count(const Answer& answer, const std::string& cut_off) {
   ++counts_.answers;
-  if (!cut_off.empty()) {
-    ++counts_.cut_off;
-    counts_.reason = cut_off;
+  const bool has_deadline = answer.deadline > 0.0;
+  std::string reason = cut_off;
+  for (const AnswerPart& part : answer.parts) {
+    if (reason.empty() && has_deadline && !part.is_complete) {
+      reason = cut_off_text(part.name, about_.query);
+    }
   }
+  if (!reason.empty()) {
+    ++counts_.cut_off;
+    counts_.reason = reason;
+  }
+  counts_.late += has_deadline && answer.total_time > answer.deadline ? 1 : 0;
+  counts_.hopeless += has_deadline && update_time(answer) > answer.deadline ? 1 : 0;
 }
 
 /// Adds the counts of messages of a topic; the summary is worse where some were refused since the
@@ -194,11 +203,16 @@ void Diagnostics::report_deadlines(Status& status) {
                                                std::to_string(counts.answers) +
                                                " answers cut off: " + counts.reason);
   }
+  if (counts.hopeless > 0) {
+    status.mergeSummary(DiagnosticStatus::WARN, "of " + std::to_string(counts.hopeless) +
+                                                    " updates alone took longer than the deadline");
+  }
   status.addf("deadline [s]", "%g", about_.query.deadline);
   status.add("pair limit", about_.query.pair_limit);
   status.add("contact limit", about_.query.contact_limit);
   status.add("answers", counts.answers);
   status.add("cut off", counts.cut_off);
+  status.add("late", counts.late);
 }
 
 }  // namespace fiber_proximity_ros

@@ -35,7 +35,9 @@ class StatisticsOutput {
 struct AnswerCounts {
   std::uint64_t answers = 0;
   std::uint64_t cut_off = 0;
-  std::string reason;  ///< of the last one that was
+  std::uint64_t late = 0;      ///< that took longer than their deadline
+  std::uint64_t hopeless = 0;  ///< of which updates alone took longer
+  std::string reason;          ///< of the last one that was
 };
 
 /// The node's entries on /diagnostics, each second: one per input and source of the environment,
@@ -48,8 +50,8 @@ class Diagnostics {
   Diagnostics& operator=(const Diagnostics&) = delete;
 
   /// Counts an answer.
-  /// @param cut_off why not all pairs were looked at; empty if they were
-  void count(const std::string& cut_off);
+  /// @param cut_off why not all pairs of fibres were looked at; empty if they were
+  void count(const Answer& answer, const std::string& cut_off);
 
   /// Publishes if it is time to.
   void update() { updater_.update(); }

@@ -56,13 +56,18 @@ void AnswerPipeline::answer(const AnswerCause& cause) {
   markers_.request();
   const bool has_statistics = statistics_.has_listeners();
   const bool wants_everything = has_statistics || markers_.has_listeners();
-  if (wants_everything || contacts_.has_listeners()) {
+  const bool wants_contacts = wants_everything || contacts_.has_listeners();
+  const bool looks_around =
+      scene_.environment.is_used() && (wants_everything || environment_contacts_.has_listeners());
+  const auto time = [cause] { return cause.time_before + cause.stopwatch.seconds(); };
+  budget_.begin(settings_.query().deadline, time, planned_stages(wants_contacts, looks_around));
+  if (wants_contacts) {
     detect();
     publish_contacts();
   } else {
     contacts_.skip();
   }
-  if (scene_.environment.is_used() && (wants_everything || environment_contacts_.has_listeners())) {
+  if (looks_around) {
     detect_in_environment();
   } else {
     environment_.skip();
@@ -72,15 +77,19 @@ void AnswerPipeline::answer(const AnswerCause& cause) {
   if (wants_everything) {
     tell_pairs();
   }
-  const auto time = [&cause] { return cause.time_before + cause.stopwatch.seconds(); };
   answer_.total_time = time();
   const Stopwatch drawing;
-  if (publish_markers_if_due()) {
+  // Else they are drawn by the next tick, which no message waits for.
+  if (budget_.allows(Stage::DRAWING) && publish_markers_if_due()) {
     add_part("markers", drawing.seconds());
   }
+  budget_.end();
   compare();
   answer_.total_time = time();
   answer_.goes_on = false;
+  if (wants_contacts) {
+    diagnostics_.count(answer_, detector_.detection().cut_off(settings_.query()));
+  }
   if (has_statistics) {
     statistics_.publish(answer_, scene_.knowledge.completeness(Knowledge::About::FIBERS),
                         completeness_of_all());
@@ -92,7 +101,11 @@ void AnswerPipeline::answer_about_environment() {
     const Stopwatch stopwatch;
     begin();
     motion_.rest();
+    budget_.begin(
+        settings_.query().deadline, [stopwatch] { return stopwatch.seconds(); },
+        planned_stages(false, true));
     detect_in_environment();
+    budget_.end();
     if (markers_.has_listeners()) {
       tell_pairs();
     }
@@ -103,12 +116,39 @@ void AnswerPipeline::answer_about_environment() {
 
 void AnswerPipeline::tick() {
   publish_markers_if_due();
+  budget_.end();
   diagnostics_.update();
 }
 
 void AnswerPipeline::begin() {
   answer_.parts.clear();
   answer_.goes_on = true;
+  answer_.deadline = settings_.query().deadline;
+}
+
+/// The stages that somebody waits for.
+std::vector<Stage> AnswerPipeline::planned_stages(bool wants_contacts, bool looks_around) const {
+  const ProximityConfig& config = settings_.config();
+  const FiberStep& step = motion_.step();
+  std::vector<Stage> stages;
+  if (wants_contacts) {
+    stages.push_back(Stage::CONTACTS);
+    if (step.is_motion()) {
+      stages.push_back(Stage::MOTION);
+    }
+    stages.push_back(Stage::OUTPUT);
+  }
+  if (looks_around) {
+    stages.push_back(Stage::ENVIRONMENT);
+    if (environment_contacts_.has_listeners() && (step.is_motion() || step.rests())) {
+      stages.push_back(Stage::ENVIRONMENT_MOTION);
+    }
+    stages.push_back(Stage::ENVIRONMENT_OUTPUT);
+  }
+  if (config.prediction > 0.0 && time_to_contact_.has_listeners()) {
+    stages.push_back(Stage::PREDICTION);
+  }
+  return stages;
 }
 
 void AnswerPipeline::add_part(const std::string& name, double seconds, bool is_complete) {
@@ -163,8 +203,9 @@ void AnswerPipeline::publish_fibers() {
 void AnswerPipeline::detect() {
   const bool wants_minimum = settings_.config().minimum_distance;
   const Detection& found = detector_.detection();
+  budget_.enter(Stage::CONTACTS);
   try {
-    detector_.detect(settings_.query(), wants_minimum);
+    detector_.detect(settings_.query(), wants_minimum, budget_);
   } catch (const std::invalid_argument& error) {
     ROS_ERROR_STREAM_THROTTLE(1.0, "engine " << detector_.engine_name() << ": " << error.what());
   }
@@ -196,16 +237,17 @@ void AnswerPipeline::publish_contacts() {
   const fiber::QueryOptions& query = settings_.query();
   const Detection& found = detector_.detection();
   const Stopwatch motion_time;
+  const bool is_left_out = motion_.step().is_motion() && !budget_.allows(Stage::MOTION);
   const std::optional<KnownMotion> motion =
-      motion_.detect(query, found.has_all_of(query), settings_.config().motion_tolerance);
-  if (motion) {
-    add_part("motion", motion_time.seconds(), motion->result.complete);
+      motion_.detect(query, found.has_all_of(query), settings_.config().motion_tolerance, budget_);
+  if (motion || is_left_out) {
+    add_part("motion", motion_time.seconds(), motion && motion->result.complete);
   }
+  budget_.enter(Stage::OUTPUT);
   const Stopwatch stopwatch;
   const BodyNames names{scene_.fibers.names(), {}};
   const ContactAnswer answer{
       found, query, motion ? &*motion : nullptr, scene_.knowledge, names, scene_.fibers.header()};
-  diagnostics_.count(found.cut_off(query));
   contacts_.track(answer);
   markers_.add_passed(contacts_.contacts());
   add_part("touches", stopwatch.seconds());
@@ -220,8 +262,11 @@ void AnswerPipeline::detect_in_environment() {
   // Objects may have moved where fibres have not.
   const FiberStep& fiber_step = motion_.step();
   const ContinuousStep step{fiber_step.motion(), fiber_step.time(), config.motion_tolerance};
+  budget_.enter(Stage::ENVIRONMENT);
   environment_.detect(query, config.minimum_distance,
-                      fiber_step.is_motion() || fiber_step.rests() ? &step : nullptr, is_tracked);
+                      fiber_step.is_motion() || fiber_step.rests() ? &step : nullptr, is_tracked,
+                      budget_);
+  budget_.enter(Stage::ENVIRONMENT_OUTPUT);
   const Detection& found = environment_.detection();
   add_part("environment_update", environment_.update_time());
   add_part("environment_contacts", found.contact_time(), found.are_contacts_complete());
@@ -230,6 +275,8 @@ void AnswerPipeline::detect_in_environment() {
   }
   if (const KnownMotion* const motion = environment_.motion(); motion != nullptr) {
     add_part("environment_motion", environment_.motion_time(), motion->result.complete);
+  } else if (environment_.is_motion_left_out()) {
+    add_part("environment_motion", 0.0, false);
   }
   if (!is_tracked) {
     environment_contacts_.skip();
@@ -251,7 +298,7 @@ void AnswerPipeline::predict() {
     return;
   }
   const Stopwatch stopwatch;
-  predictor_.predict(settings_.query(), time_to_contact_.message());
+  predictor_.predict(settings_.query(), time_to_contact_.message(), budget_);
   time_to_contact_.publish();
   add_part("prediction", stopwatch.seconds(), !predictor_.is_cut_off());
 }
@@ -268,6 +315,7 @@ void AnswerPipeline::compare() {
 bool AnswerPipeline::publish_markers_if_due() {
   const bool is_due = markers_.is_due();
   if (is_due) {
+    budget_.enter(Stage::DRAWING);
     markers_.publish(detected(), crossings_, settings_.config(), completeness_of_all(), answer_);
   }
   return is_due;

@@ -4,9 +4,11 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "fiber_proximity/FiberArray.h"
 #include "fiber_proximity/TimeToContact.h"
+#include "src/ros/detection/budget.hpp"
 #include "src/ros/detection/detected_scene.hpp"
 #include "src/ros/detection/detector.hpp"
 #include "src/ros/detection/environment_detector.hpp"
@@ -63,6 +65,7 @@ class AnswerPipeline {
   void begin();
   void add_part(const std::string& name, double seconds, bool is_complete = true);
   void tell_pairs();
+  std::vector<Stage> planned_stages(bool wants_contacts, bool looks_around) const;
   void publish_fibers();
   void detect();
   std::string input_with_most_contacts() const;
@@ -88,6 +91,7 @@ class AnswerPipeline {
   ComparisonOutput comparison_;
   StatisticsOutput statistics_;
   Answer answer_;  // the last one
+  Budget budget_;
   Diagnostics diagnostics_;
 };
 
