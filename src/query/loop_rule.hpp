@@ -58,15 +58,22 @@ class LoopReach {
 /// How many questions the rule asks at most.
 constexpr int loop_question_count = 4;
 
-/// The rule of LoopTest: whether a fibre makes a loop between two of its segments, the one of the
-/// smaller index first.
+/// The ends of two segments that a way from one to the other does not come by: along a fibre, the
+/// first one of the segment of the smaller index and the last one of the other.
+struct OuterEnds {
+  bool is_last_of_a = false;
+  bool is_last_of_b = true;
+};
+
+/// The rule of LoopTest: whether a way from one segment to another, which along a fibre is the one
+/// of the larger index, makes a loop.
 /// @param nearest of the kernel robust
-/// @param is_left whether any point between them, the first of b included, is further from one of
-///                two places than a limit [m]: is_left(question, x, y, limit). Questions count from
-///                0 and come in this order; not all need be asked
+/// @param is_left whether any point on the way, the inner ends of both segments included, is
+///                further from one of two places than a limit [m]: is_left(question, x, y, limit).
+///                Questions count from 0 and come in this order; not all need be asked
 template <class IsLeft>
 bool makes_loop_by(const Capsule& a, const Capsule& b, const SegmentDistance& nearest,
-                   const IsLeft& is_left) {
+                   const IsLeft& is_left, OuterEnds outer = {}) {
   // How far the fibre must go from two places: this part of their distance, and so many radii.
   constexpr double part_of_distance = 1.25;
   constexpr double count_of_radii = 2.5;
@@ -88,14 +95,17 @@ bool makes_loop_by(const Capsule& a, const Capsule& b, const SegmentDistance& ne
     return true;
   }
   const double most = nearest.distance + radius;
-  const SegmentDistance of_a = segment_distance(a.p0, a.p0, b.p0, b.p1);
-  if (of_a.distance <= most &&
-      is_left(2, place_on(a, 0.0), place_on(b, of_a.t), limit(of_a.distance))) {
+  const Eigen::Vector3d& end_a = outer.is_last_of_a ? a.p1 : a.p0;
+  const SegmentDistance of_a = segment_distance(end_a, end_a, b.p0, b.p1);
+  if (of_a.distance <= most && is_left(2, place_on(a, outer.is_last_of_a ? 1.0 : 0.0),
+                                       place_on(b, of_a.t), limit(of_a.distance))) {
     return true;
   }
-  const SegmentDistance of_b = segment_distance(a.p0, a.p1, b.p1, b.p1);
+  const Eigen::Vector3d& end_b = outer.is_last_of_b ? b.p1 : b.p0;
+  const SegmentDistance of_b = segment_distance(a.p0, a.p1, end_b, end_b);
   return of_b.distance <= most &&
-         is_left(3, place_on(a, of_b.s), place_on(b, 1.0), limit(of_b.distance));
+         is_left(3, place_on(a, of_b.s), place_on(b, outer.is_last_of_b ? 1.0 : 0.0),
+                 limit(of_b.distance));
 }
 
 }  // namespace fiber
