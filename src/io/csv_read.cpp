@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <limits>
 #include <optional>
 #include <unordered_map>
 #include <utility>
@@ -60,6 +61,7 @@ class CsvReader {
     }
     file.frames.reserve(frames_.size());
     for (; !frames_.empty(); frames_.pop_front()) {
+      note_lonely_joint(frames_.front());
       file.frames.push_back(builder_.build(std::move(frames_.front()), name_, default_radius_));
     }
     if (!file.has_frames && !builder_.scattered().empty()) {
@@ -148,6 +150,20 @@ class CsvReader {
                        : "; there is no column fiber: all rows are one fibre");
   }
 
+  /// Often a mistake; one is told of.
+  void note_lonely_joint(const FrameRows& rows) {
+    const std::vector<LonelyJoint> lonely = lonely_joints(rows.joints);
+    if (!lonely.empty() && !has_lonely_joint_) {
+      notes_.push_back(
+          "joint " + std::to_string(lonely.front().joint) + " is of one point only" +
+          (columns_->has(CsvColumns::FRAME) ? " in frame " + std::to_string(rows.number) : "") +
+          (lonely.size() == 1 ? ""
+                              : ", and so are " + std::to_string(lonely.size() - 1) + " more") +
+          ": what is joined has the same number");
+      has_lonely_joint_ = true;
+    }
+  }
+
   void split(std::string_view line) {
     if (const char* const problem = row_.split(line, columns_->separator)) {
       refuse("value " + std::to_string(row_.fields().size() + 1) + ' ' + problem);
@@ -164,7 +180,8 @@ class CsvReader {
   }
 
   void read_row() {
-    enter_frame(columns_->has(CsvColumns::FRAME) ? read_frame(field(CsvColumns::FRAME)) : 0);
+    enter_frame(columns_->has(CsvColumns::FRAME) ? read_whole("frame", field(CsvColumns::FRAME))
+                                                 : 0);
     enter_fiber(columns_->has(CsvColumns::FIBER) ? field(CsvColumns::FIBER) : "0");
     Eigen::Vector3d& point = rows_->points.emplace_back();
     for (int axis = 0; axis < 3; ++axis) {
@@ -182,18 +199,45 @@ class CsvReader {
         refuse("radius is " + quote(text) + ", " + FiberAssembly::radius_rule);
       }
     }
+    if (columns_->has(CsvColumns::CLOSED)) {
+      rows_->closed.push_back(read_closed(field(CsvColumns::CLOSED)));
+    }
+    if (columns_->has(CsvColumns::JOINT)) {
+      rows_->joints.push_back(read_joint(field(CsvColumns::JOINT)));
+    }
+  }
+
+  std::uint8_t read_closed(std::string_view text) const {
+    const auto closed = parse_number<double>(text);
+    if (!closed || (*closed != 0.0 && *closed != 1.0)) {
+      refuse("closed is " + quote(text) + ", expected 0 or 1");
+    }
+    return *closed != 0.0 ? 1 : 0;
+  }
+
+  /// Nothing, and a number below 0, is no joint.
+  std::int32_t read_joint(std::string_view text) const {
+    constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
+    if (text.empty()) {
+      return -1;
+    }
+    const std::int64_t joint = read_whole("joint", text);
+    if (joint > most) {
+      refuse("joint is " + quote(text) + ", it must be at most " + std::to_string(most));
+    }
+    return static_cast<std::int32_t>(std::max<std::int64_t>(joint, -1));
   }
 
   /// Also of numbers that a program writes as 3.000e+00.
-  std::int64_t read_frame(std::string_view text) const {
-    if (const auto frame = parse_number<std::int64_t>(text)) {
-      return *frame;
+  std::int64_t read_whole(const char* name, std::string_view text) const {
+    if (const auto whole = parse_number<std::int64_t>(text)) {
+      return *whole;
     }
     constexpr double most =
         9'007'199'254'740'992.0;  // 2⁵³: below it doubles are every whole number
     const auto number = parse_number<double>(text);
     if (!number || !(std::abs(*number) < most) || *number != std::floor(*number)) {
-      refuse("frame is " + quote(text) + ", expected a whole number");
+      refuse(name + (" is " + quote(text)) + ", expected a whole number");
     }
     return static_cast<std::int64_t>(*number);
   }
@@ -238,6 +282,7 @@ class CsvReader {
   const std::string name_;
   const double default_radius_;  // [m]
   std::vector<std::string> notes_;
+  bool has_lonely_joint_ = false;
   std::string begin_;                    // of the file
   std::optional<CsvColumns> columns_;    // nothing before the header
   std::optional<CsvColumns> commented_;  // of a header that is a comment, if it is one

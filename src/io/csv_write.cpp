@@ -16,11 +16,19 @@ void append_name(std::string& text, const FiberNames& names, std::size_t fiber) 
   }
 }
 
-void append_rows(std::string& text, const FiberFrame& frame, bool has_frames) {
-  const std::vector<std::uint32_t>& offsets = frame.fibers.offsets();
+/// Which columns there are, beside those that always are.
+struct Columns {
+  bool frames;
+  bool joints;
+};
+
+void append_rows(std::string& text, const FiberFrame& frame, Columns columns) {
+  const FiberTopology topology = frame.fibers.topology();
+  const std::vector<std::uint32_t>& given = frame.fibers.given_offsets();
   for (std::size_t fiber = 0; fiber < frame.fibers.fiber_count(); ++fiber) {
-    for (std::size_t point = offsets[fiber]; point < offsets[fiber + 1]; ++point) {
-      if (has_frames) {
+    for (std::size_t i = 0; i < given[fiber + 1] - given[fiber]; ++i) {
+      const std::size_t point = frame.fibers.offsets()[fiber] + i;
+      if (columns.frames) {
         append_number(text, frame.frame);
         text += ',';
       }
@@ -32,6 +40,12 @@ void append_rows(std::string& text, const FiberFrame& frame, bool has_frames) {
       }
       text += ',';
       append_number(text, frame.fibers.radius_at(fiber, point));
+      if (columns.joints) {
+        text += frame.fibers.is_closed(fiber) ? ",1," : ",0,";
+        if (!topology.joints.empty() && topology.joints[given[fiber] + i] >= 0) {
+          append_number(text, topology.joints[given[fiber] + i]);
+        }
+      }
       text += '\n';
     }
   }
@@ -40,8 +54,13 @@ void append_rows(std::string& text, const FiberFrame& frame, bool has_frames) {
 }  // namespace
 
 CsvWriter::CsvWriter(const std::string& path, bool has_frames)
-    : has_frames_(has_frames), file_(path) {
-  file_.write(has_frames ? "frame,fiber,x,y,z,radius\n" : "fiber,x,y,z,radius\n");
+    : has_frames_(has_frames), file_(path) {}
+
+/// The first frame tells whether there are columns of what is joined.
+void CsvWriter::begin(bool has_joints) {
+  has_joints_ = has_joints;
+  file_.write(has_frames_ ? "frame,fiber,x,y,z,radius" : "fiber,x,y,z,radius");
+  file_.write(has_joints ? ",closed,joint\n" : "\n");
 }
 
 void CsvWriter::write(const FiberFrame& frame) {
@@ -59,11 +78,25 @@ void CsvWriter::write(const FiberFrame& frame) {
   if (!frames_written_.insert(frame.frame).second) {
     throw std::invalid_argument("frame " + std::to_string(frame.frame) + " was written before");
   }
+  const bool has_joints = frame.fibers.graph() != nullptr;
+  if (frames_written_.size() > 1 && has_joints && !has_joints_) {
+    throw std::invalid_argument("frame " + std::to_string(frame.frame) +
+                                " has fibres that are closed or joined, the first frame has none: "
+                                "the file has no columns for them");
+  }
+  if (frames_written_.size() == 1) {
+    begin(has_joints);
+  }
   rows_.clear();
-  append_rows(rows_, frame, has_frames_);
+  append_rows(rows_, frame, {has_frames_, has_joints_});
   file_.write(rows_);
 }
 
-void CsvWriter::finish() { file_.close(); }
+void CsvWriter::finish() {
+  if (frames_written_.empty()) {
+    begin(false);
+  }
+  file_.close();
+}
 
 }  // namespace fiber

@@ -1,5 +1,7 @@
 #include "src/io/frame_rows.hpp"
 
+#include <algorithm>
+#include <stdexcept>
 #include <utility>
 
 #include "src/io/radii.hpp"
@@ -54,6 +56,8 @@ void FrameBuilder::find_fibers(const FrameRows& rows) {
 void FrameBuilder::bring_together(FrameRows& rows) {
   std::vector<Eigen::Vector3d> points(rows.points.size());
   std::vector<double> radii(rows.radii.size());
+  std::vector<std::uint8_t> closed(rows.closed.size());
+  std::vector<std::int32_t> joints(rows.joints.size());
   std::vector<std::uint32_t> places = offsets_;
   for (std::size_t run = 0; run < rows.runs.size(); ++run) {
     const std::uint32_t fiber = fibers_[rows.runs[run].name];
@@ -66,10 +70,18 @@ void FrameBuilder::bring_together(FrameRows& rows) {
       if (!radii.empty()) {
         radii[place] = rows.radii[i];
       }
+      if (!closed.empty()) {
+        closed[place] = rows.closed[i];
+      }
+      if (!joints.empty()) {
+        joints[place] = rows.joints[i];
+      }
     }
   }
   rows.points = std::move(points);
   rows.radii = std::move(radii);
+  rows.closed = std::move(closed);
+  rows.joints = std::move(joints);
 }
 
 void FrameBuilder::require_segments(const FrameRows& rows, const std::string& file) const {
@@ -96,6 +108,22 @@ FiberNames FrameBuilder::names_of_fibers() {
   return fiber_names_;
 }
 
+/// What is joined among rows that have been brought together.
+FiberTopology FrameBuilder::topology_of(FrameRows& rows, const std::string& file) const {
+  FiberTopology topology;
+  topology.joints = std::move(rows.joints);
+  for (std::size_t fiber = 0; !rows.closed.empty() && fiber + 1 < offsets_.size(); ++fiber) {
+    const auto first = rows.closed.begin() + offsets_[fiber];
+    const auto last = rows.closed.begin() + offsets_[fiber + 1];
+    if (std::find(first, last, *first == 0 ? 1 : 0) != last) {
+      throw FileError(file, "fibre " + quote(names_[names_in_frame_[fiber]]) +
+                                " is closed in some of its rows and not in others");
+    }
+    topology.closed.push_back(*first);
+  }
+  return topology;
+}
+
 FiberFrame FrameBuilder::build(FrameRows rows, const std::string& file, double default_radius) {
   find_fibers(rows);
   require_segments(rows, file);
@@ -108,9 +136,16 @@ FiberFrame FrameBuilder::build(FrameRows rows, const std::string& file, double d
   if (rows.radii.empty()) {
     rows.radii.push_back(default_radius);
   }
-  return {rows.number,
-          FiberAssembly(std::move(rows.points), offsets_, shared_if_equal(std::move(rows.radii))),
-          names_of_fibers()};
+  const FiberTopology topology = topology_of(rows, file);
+  try {
+    return {rows.number,
+            FiberAssembly(std::move(rows.points), offsets_, shared_if_equal(std::move(rows.radii)),
+                          topology),
+            names_of_fibers()};
+  } catch (const std::invalid_argument& error) {
+    // Rows are right one by one by now: only what is joined can be wrong.
+    throw FileError(file, "frame " + std::to_string(rows.number) + ": " + error.what());
+  }
 }
 
 }  // namespace fiber

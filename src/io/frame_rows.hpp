@@ -24,7 +24,9 @@ struct FrameRows {
 
   std::int64_t number = 0;
   std::vector<Eigen::Vector3d> points;
-  std::vector<double> radii;  ///< of the points [m], or none
+  std::vector<double> radii;         ///< of the points [m], or none
+  std::vector<std::uint8_t> closed;  ///< of the points their fibre's, or none
+  std::vector<std::int32_t> joints;  ///< of the points, or none
   std::vector<Run> runs;
 };
 
@@ -37,7 +39,7 @@ class FrameBuilder {
 
   /// @param file           what errors call it
   /// @param default_radius [m] of a frame without radii
-  /// @throws FileError for a fibre of one point
+  /// @throws FileError for a fibre of one point, or what can be neither closed nor joined
   FiberFrame build(FrameRows rows, const std::string& file, double default_radius);
 
   /// A fibre whose rows did not stand one after another in a frame that was built, "" for none.
@@ -47,6 +49,7 @@ class FrameBuilder {
   void find_fibers(const FrameRows& rows);
   void bring_together(FrameRows& rows);
   void require_segments(const FrameRows& rows, const std::string& file) const;
+  FiberTopology topology_of(FrameRows& rows, const std::string& file) const;
   FiberNames names_of_fibers();
 
   std::deque<std::string> names_;  // by number

@@ -86,6 +86,9 @@ std::string encoded(const FiberFile& file) {
            (file.has_frames ? " with numbers" : ""));
   }
   const FiberAssembly& fibers = file.frames.front().fibers;
+  if (fibers.graph() != nullptr) {
+    refuse("fibres that are closed or joined; .csv holds them");
+  }
   const bool segments_differ = fibers.fiber_count() > 0 && common_segments(fibers) == 0;
   const bool radii_differ = fibers.radius_per() != RadiusPer::ASSEMBLY;
   const std::uint32_t flags =

@@ -77,11 +77,12 @@ struct FiberFile {
 
 /// Reads a fibre file: a header, then a row per point. Columns are found by their names, in any
 /// order and in capitals or not: `x`, `y`, `z` [m], and where there are any `frame`, a whole
-/// number, `fiber`, any text, and `radius` [m]. Others are left out, and FiberFile::notes names
-/// them; without `fiber` all rows of a frame are one fibre. The points of a fibre are the rows with
-/// its name, in their order, wherever they stand. Frames are in the file's order, or in that of
-/// their numbers where their rows are mixed; the fibres of each are in the order in which they
-/// first appear.
+/// number, `fiber`, any text, `radius` [m], `closed`, 0 or 1 for a whole fibre, and `joint`, a
+/// whole number: points of a frame with the same one are joined, those with none or one below 0 are
+/// not (FiberTopology). Others are left out, and FiberFile::notes names them; without `fiber` all
+/// rows of a frame are one fibre. The points of a fibre are the rows with its name, in their order,
+/// wherever they stand. Frames are in the file's order, or in that of their numbers where their
+/// rows are mixed; the fibres of each are in the order in which they first appear.
 ///
 /// Values are separated by commas, semicolons, tabs or blanks, as the header is; those in quotes
 /// may hold anything but a line's end (RFC 4180). Blanks around values, blank lines, CRLF line ends
@@ -97,7 +98,8 @@ FiberFile read_csv(std::istream& stream, const std::string& name, double default
 
 /// Writes a fibre file frame by frame, so that a long one never is in memory. The radius column is
 /// that of the point if there is one per point, else that of its fibre. All numbers read back as
-/// the same.
+/// the same. Where fibres of the first frame are closed or joined there are the columns `closed`
+/// and `joint`.
 class CsvWriter {
  public:
   /// @param has_frames whether frames have numbers; without them the file holds exactly one
@@ -105,7 +107,8 @@ class CsvWriter {
   CsvWriter(const std::string& path, bool has_frames);
 
   /// @throws std::invalid_argument for a frame that the file cannot hold: without numbers any but
-  ///         the first; with them one without fibres, or with the number of an earlier one
+  ///         the first; with them one without fibres, or with the number of an earlier one; one of
+  ///         fibres that are closed or joined, where the first one had none
   /// @throws FileError
   void write(const FiberFrame& frame);
 
@@ -114,7 +117,10 @@ class CsvWriter {
   void finish();
 
  private:
+  void begin(bool has_joints);
+
   const bool has_frames_;
+  bool has_joints_ = false;
   OutputFile file_;
   std::set<std::int64_t> frames_written_;
   std::string rows_;
@@ -150,8 +156,8 @@ FiberFile read_hair(std::istream& stream, const std::string& name, double defaul
 /// has. The arrays of segments and thickness are written only if one value does not serve all.
 /// @throws FileError
 /// @throws std::invalid_argument if a file cannot hold this: anything but one frame without a
-///         number, fibres that differ in segments and have more than 65 535 of them, or numbers
-///         beyond single precision
+///         number, fibres that are closed or joined, that differ in segments and have more than 65
+///         535 of them, or numbers beyond single precision
 void write_hair(const std::string& path, const FiberFile& file);
 
 /// write_hair() to a stream, which is not checked for errors.
