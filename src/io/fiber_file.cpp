@@ -149,6 +149,9 @@ FiberWriter::FiberWriter(const std::string& path, bool has_frames)
     pvd_.emplace(path);
   } else if (format == FileFormat::CSV) {
     csv_.emplace(path, has_frames);
+  } else if (has_frames) {
+    refuse_to_encode(end_of_name().c_str(),
+                     "it holds exactly 1 frame without a number, not frames with numbers");
   }
 }
 

@@ -31,7 +31,7 @@ FIBER_PROXIMITY_EXPORT FileFormat format_of(const std::string& path);
 /// that are known.
 std::string format_of_content(std::string_view begin);
 
-/// Whether fibres can be written to one file that holds one frame.
+/// Whether a format is written here and holds one frame.
 FIBER_PROXIMITY_EXPORT bool holds_one_frame(FileFormat format);
 
 /// Sees that fibres can be read from a file of this name here, without ranks.

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "src/io/radii.hpp"
+#include "src/io/strands.hpp"
 #include "src/text/quote.hpp"
 
 namespace fiber {
@@ -84,7 +85,7 @@ void FrameBuilder::require_segments(const FrameRows& rows, const std::string& fi
     if (offsets_[fiber + 1] - offsets_[fiber] < 2) {
       throw FileError(
           file, run.line,
-          "fibre " + quote(names_[run.name]) + " has only this point, a fibre needs at least 2");
+          "fibre " + quote(names_[run.name]) + " has only this point, " + single_point_rule);
     }
   }
 }

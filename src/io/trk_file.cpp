@@ -1,4 +1,5 @@
 // .trk files of TrackVis: trackvis.org/docs/?subsect=fileformat
+#include <stdexcept>
 #include <utility>
 
 #include "fiber_proximity/io/fiber_formats.hpp"
@@ -170,9 +171,8 @@ class TrkReader {
 
   void read_point(std::uint64_t scalars) {
     const std::uint64_t byte = reader_.position();
-    const auto what = [&] {
-      return "point " + text_of(strands_.points.size() - strands_.offsets.back()) + " of track " +
-             text_of(strands_.count());
+    const auto what = [&, index = strands_.points.size() - strands_.offsets.back()] {
+      return "point " + text_of(index) + " of track " + text_of(strands_.count());
     };
     Eigen::Vector3d point;
     for (double& coordinate : point) {
