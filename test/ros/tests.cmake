@@ -209,6 +209,15 @@ target_link_libraries(uncertainty_node_test
   fiber_proximity_ros fiber_proximity_options test_support)
 add_dependencies(uncertainty_node_test proximity_node)
 
+add_rostest_gtest(latency_node_test
+  ros/latency.test
+  ros/latency_node_test.cpp
+  ros/main.cpp
+)
+target_link_libraries(latency_node_test
+  fiber_proximity_ros fiber_proximity_options test_support)
+add_dependencies(latency_node_test proximity_node)
+
 add_rostest_gtest(environment_node_test
   ros/environment_inputs.test
   ros/environment_clouds_test.cpp

@@ -62,6 +62,9 @@ struct InputTiming {
   /// [s] most by which stamps that belong together differ; more than a period of a usual camera
   double synchronize_slop{};
 
+  /// True: what fibres may have moved since their stamps makes them uncertain.
+  bool bounds_latency{};
+
   /// Messages of one input that wait, for their transforms or for those of the other inputs.
   /// Without synchronisation one keeps its turn, and the newest stands behind it.
   std::size_t queue_size() const { return synchronize ? 10 : 2; }
