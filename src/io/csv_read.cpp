@@ -13,6 +13,7 @@
 #include "src/io/input_file.hpp"
 #include "src/io/number.hpp"
 #include "src/io/radii.hpp"
+#include "src/io/strands.hpp"
 #include "src/text/quote.hpp"
 
 namespace fiber {
@@ -21,9 +22,9 @@ namespace {
 /// Takes a file line by line and puts its frames together.
 class CsvReader {
  public:
-  CsvReader(std::string name, double default_radius)
-      : name_(std::move(name)), default_radius_(default_radius) {
-    check_default_radius(default_radius);
+  CsvReader(std::string name, const ReadOptions& options)
+      : name_(std::move(name)), options_(options) {
+    check_default_radius(options.default_radius);
   }
 
   void read_line(std::string_view line) {
@@ -60,12 +61,15 @@ class CsvReader {
     }
     file.frames.reserve(frames_.size());
     for (; !frames_.empty(); frames_.pop_front()) {
-      file.frames.push_back(builder_.build(std::move(frames_.front()), name_, default_radius_));
+      file.frames.push_back(builder_.build(std::move(frames_.front()), name_, options_));
     }
     if (!file.has_frames && !builder_.scattered().empty()) {
       notes_.push_back("rows of one fibre do not stand one after another, as of " +
                        quote(builder_.scattered()) +
                        ": without a column frame they are put together");
+    }
+    if (builder_.skipped() > 0) {
+      notes_.push_back(note_of_skipped(builder_.skipped()));
     }
     file.notes = std::move(notes_);
     return file;
@@ -236,7 +240,7 @@ class CsvReader {
   static constexpr std::size_t longest_begin = 16;  // [byte] enough to know other formats by
 
   const std::string name_;
-  const double default_radius_;  // [m]
+  const ReadOptions& options_;
   std::vector<std::string> notes_;
   std::string begin_;                    // of the file
   std::optional<CsvColumns> columns_;    // nothing before the header
@@ -256,13 +260,13 @@ class CsvReader {
 
 }  // namespace
 
-FiberFile read_csv(const std::string& path, double default_radius) {
+FiberFile read_csv(const std::string& path, const ReadOptions& options) {
   std::ifstream stream = open_to_read(path);
-  return read_csv(stream, path, default_radius);
+  return read_csv(stream, path, options);
 }
 
-FiberFile read_csv(std::istream& stream, const std::string& name, double default_radius) {
-  CsvReader reader(name, default_radius);
+FiberFile read_csv(std::istream& stream, const std::string& name, const ReadOptions& options) {
+  CsvReader reader(name, options);
   for_each_line(stream, name, [&](std::string_view line) { reader.read_line(line); });
   return reader.finish();
 }

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "src/io/radii.hpp"
+#include "src/io/strands.hpp"
 #include "src/text/quote.hpp"
 
 namespace fiber {
@@ -50,6 +51,12 @@ void FrameBuilder::find_fibers(const FrameRows& rows) {
   }
 }
 
+void FrameBuilder::forget_fibers() {
+  for (const std::uint32_t name : names_in_frame_) {
+    fibers_[name] = no_fiber;
+  }
+}
+
 /// Where rows of a fibre do not stand one after another.
 void FrameBuilder::bring_together(FrameRows& rows) {
   std::vector<Eigen::Vector3d> points(rows.points.size());
@@ -78,9 +85,37 @@ void FrameBuilder::require_segments(const FrameRows& rows, const std::string& fi
     if (offsets_[fiber + 1] - offsets_[fiber] < 2) {
       throw FileError(
           file, run.line,
-          "fibre " + quote(names_[run.name]) + " has only this point, a fibre needs at least 2");
+          "fibre " + quote(names_[run.name]) + " has only this point, " + single_point_rule);
     }
   }
+}
+
+/// Leaves out the rows of fibres that have one point only.
+/// @return whether there were any
+bool FrameBuilder::skip_single_points(FrameRows& rows) {
+  FrameRows kept;
+  kept.number = rows.number;
+  std::size_t skipped = 0;
+  for (std::size_t run = 0; run < rows.runs.size(); ++run) {
+    const std::uint32_t fiber = fibers_[rows.runs[run].name];
+    if (offsets_[fiber + 1] - offsets_[fiber] < 2) {
+      ++skipped;
+      continue;
+    }
+    FrameRows::Run& kept_run = kept.runs.emplace_back(rows.runs[run]);
+    kept_run.begin = kept.points.size();
+    for (std::size_t i = rows.runs[run].begin; i < end_of_run(rows, run); ++i) {
+      kept.points.push_back(rows.points[i]);
+      if (!rows.radii.empty()) {
+        kept.radii.push_back(rows.radii[i]);
+      }
+    }
+  }
+  if (skipped > 0) {
+    rows = std::move(kept);
+    skipped_ += skipped;
+  }
+  return skipped > 0;
 }
 
 FiberNames FrameBuilder::names_of_fibers() {
@@ -96,17 +131,20 @@ FiberNames FrameBuilder::names_of_fibers() {
   return fiber_names_;
 }
 
-FiberFrame FrameBuilder::build(FrameRows rows, const std::string& file, double default_radius) {
+FiberFrame FrameBuilder::build(FrameRows rows, const std::string& file,
+                               const ReadOptions& options) {
   find_fibers(rows);
+  if (options.skip_single_points && skip_single_points(rows)) {
+    forget_fibers();
+    find_fibers(rows);
+  }
   require_segments(rows, file);
   if (rows.runs.size() > names_in_frame_.size()) {
     bring_together(rows);
   }
-  for (const std::uint32_t name : names_in_frame_) {
-    fibers_[name] = no_fiber;
-  }
+  forget_fibers();
   if (rows.radii.empty()) {
-    rows.radii.push_back(default_radius);
+    rows.radii.push_back(options.default_radius);
   }
   return {rows.number,
           FiberAssembly(std::move(rows.points), offsets_, shared_if_equal(std::move(rows.radii))),

@@ -35,17 +35,21 @@ class FrameBuilder {
   /// The number of a name, the same in all frames.
   std::uint32_t number_of(std::string_view name);
 
-  /// @param file           what errors call it
-  /// @param default_radius [m] of a frame without radii
-  /// @throws FileError for a fibre of one point
-  FiberFrame build(FrameRows rows, const std::string& file, double default_radius);
+  /// @param file what errors call it
+  /// @throws FileError for a fibre of one point that is not to be skipped
+  FiberFrame build(FrameRows rows, const std::string& file, const ReadOptions& options);
+
+  /// How many fibres of one point were left out, of all frames.
+  std::size_t skipped() const { return skipped_; }
 
   /// A fibre whose rows did not stand one after another in a frame that was built, "" for none.
   const std::string& scattered() const { return scattered_; }
 
  private:
   void find_fibers(const FrameRows& rows);
+  void forget_fibers();
   void bring_together(FrameRows& rows);
+  bool skip_single_points(FrameRows& rows);
   void require_segments(const FrameRows& rows, const std::string& file) const;
   FiberNames names_of_fibers();
 
@@ -57,6 +61,7 @@ class FrameBuilder {
   std::vector<std::uint32_t> offsets_;
 
   std::string scattered_;
+  std::size_t skipped_ = 0;
 
   // These are of the frame before.
   std::vector<std::uint32_t> names_before_;
