@@ -70,9 +70,8 @@ float single_precision(const char* end, double value, const char* what, std::siz
 }
 
 bool has_radii(const FiberAssembly& fibers) {
-  return fibers.fiber_count() > 0 &&
-         std::any_of(fibers.radii().begin(), fibers.radii().end(),
-                     [](double radius) { return radius != 0.0; });
+  return fibers.fiber_count() > 0 && std::any_of(fibers.radii().begin(), fibers.radii().end(),
+                                                 [](double radius) { return radius != 0.0; });
 }
 
 }  // namespace fiber
