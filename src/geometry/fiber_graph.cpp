@@ -160,7 +160,7 @@ void FiberGraph::find_joints() {
   std::partial_sum(member_begins_.begin(), member_begins_.end(), member_begins_.begin());
   members_.resize(joint_points_.size());
   std::vector<std::uint32_t> ends(member_begins_.begin(), member_begins_.end() - 1);
-  first_from_.resize(offsets_.back());
+  first_from_.resize(offsets_.back() + 1);
   std::uint32_t point = 0;
   for (std::uint32_t index = 0; index < joint_points_.size(); ++index) {
     members_[ends[joint_points_[index].joint]++] = index;

@@ -84,6 +84,15 @@ class FIBER_PROXIMITY_EXPORT FiberGraph {
     return index > 0 && point < offsets_[joint_points_[index - 1].fiber + 1] ? index - 1 : none;
   }
 
+  /// Whether there may be a joint point so few points from an end of this segment, or at it; false
+  /// if there is none.
+  bool may_be_near(std::uint32_t segment, std::uint32_t points) const {
+    const std::uint32_t first = segment - std::min(segment, points);
+    const std::uint32_t end =
+        std::min(segment + 2 + std::min(points, offsets_.back()), offsets_.back());
+    return first_from_[first] != first_from_[end];
+  }
+
   /// The joint points of a joint.
   Members members(std::uint32_t joint) const {
     return {members_.data() + member_begins_[joint], members_.data() + member_begins_[joint + 1]};
@@ -141,8 +150,8 @@ class FIBER_PROXIMITY_EXPORT FiberGraph {
   std::vector<std::uint32_t> given_offsets_;
   std::vector<std::uint32_t> offsets_;
   std::vector<JointPoint> joint_points_;  // by point
-  // By point, the index of the first joint point that is this one or comes after it, of whatever
-  // fibre.
+  // By point, and behind the last, the index of the first joint point that is this one or comes
+  // after it, of whatever fibre.
   std::vector<std::uint32_t> first_from_;
   std::vector<std::uint32_t> members_;        // by joint, indices of joint points
   std::vector<std::uint32_t> member_begins_;  // by joint, and their end

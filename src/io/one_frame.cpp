@@ -44,6 +44,10 @@ std::vector<std::string> losses(FileFormat format, const FiberFrame& frame) {
   if (has_radii(frame.fibers) && !has_places_of_radii(format)) {
     lost.emplace_back("the format has no radii: fibres are only their axes");
   }
+  if (frame.fibers.graph() != nullptr && format != FileFormat::VTP) {
+    lost.emplace_back(
+        "the format has no closed or joined fibres: rings are chains that end where they begin");
+  }
   return lost;
 }
 

@@ -113,9 +113,14 @@ bool are_near(const FiberGraph& graph, PointPair pair, const CostBetween& cost,
 }  // namespace
 
 bool are_near_by_count(const FiberAssembly& fibers, PointPair pair, std::uint32_t max_difference) {
+  const FiberGraph& graph = *fibers.graph();
+  if (max_difference == 0 || !graph.may_be_near(pair.a, max_difference - 1) ||
+      !graph.may_be_near(pair.b, max_difference - 1)) {
+    return false;
+  }
   // Counts beyond those of all points are as many, and sums of some stay in range.
   const auto cost = [](std::uint32_t p, std::uint32_t q) { return std::uint64_t{q} - p; };
-  return are_near<std::uint64_t>(*fibers.graph(), pair, cost,
+  return are_near<std::uint64_t>(graph, pair, cost,
                                  [&](std::uint64_t count) { return count < max_difference; });
 }
 

@@ -173,36 +173,36 @@ bool LoopTest::all_ways_make_loops(PointPair pair, const SegmentDistance& neares
     LoopPlace y;
     double limit;
   };
+  const Capsule a = fibers_->capsule(pair.a);
+  const Capsule b = fibers_->capsule(pair.b);
   std::array<Question, loop_question_count> questions;
   std::size_t count = 0;
-  const auto passes = [&](std::uint32_t first, std::uint32_t last) {
-    return std::none_of(questions.begin(), questions.begin() + count, [&](const Question& asked) {
-      return leaves(asked.x, {first, last + 1}, asked.limit, loop_steps) ||
-             leaves(asked.y, {first, last + 1}, asked.limit, loop_steps);
-    });
+  const auto note = [&](int question, const LoopPlace& x, const LoopPlace& y, double limit) {
+    if (question == 0) {
+      return true;  // it would only spare the others
+    }
+    questions[count++] = {x, y, limit};
+    return false;
   };
-  const auto note_all = [&](OuterEnds outer) {
-    count = 0;
-    makes_loop_by(
-        fibers_->capsule(pair.a), fibers_->capsule(pair.b), nearest,
-        [&](int question, const LoopPlace& x, const LoopPlace& y, double limit) {
-          if (question == 0) {
-            return true;  // it would only spare the others
-          }
-          questions[count++] = {x, y, limit};
-          return false;
-        },
-        outer);
+  const auto passes = [&](std::uint32_t first, std::uint32_t last) {
+    for (std::size_t i = 0; i < count; ++i) {
+      if (leaves(questions[i].x, {first, last + 1}, questions[i].limit, loop_steps) ||
+          leaves(questions[i].y, {first, last + 1}, questions[i].limit, loop_steps)) {
+        return false;
+      }
+    }
+    return true;
   };
   const SegmentWays ways(*graph_, pair);
-  note_all({});
-  count = 1;  // that about the nearest places, which is the same for all
+  // The one about the nearest places is the same for all ways.
+  note(1, place_on(a, nearest.s), place_on(b, nearest.t), LoopLimit(a, b)(nearest.distance));
   if (!ways.is_passable(WayEnds(), passes)) {
     return true;
   }
   for (const bool leaves_by_last : {true, false}) {
     for (const bool arrives_by_last : {false, true}) {
-      note_all({!leaves_by_last, !arrives_by_last});
+      count = 0;
+      makes_loop_by(a, b, nearest, note, {!leaves_by_last, !arrives_by_last});
       if (ways.is_passable({!leaves_by_last, leaves_by_last, !arrives_by_last, arrives_by_last},
                            passes)) {
         return false;

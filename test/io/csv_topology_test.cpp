@@ -5,6 +5,7 @@
 #include <string>
 
 #include "fiber_proximity/io/fiber_file.hpp"
+#include "src/io/one_frame.hpp"
 #include "test/support/temporary_directory.hpp"
 
 namespace fiber {
@@ -39,8 +40,8 @@ TEST(CsvTopology, IsReadAndWritten) {
   EXPECT_EQ(fibers.given_offsets(), (std::vector<std::uint32_t>{0, 3, 5}));
   EXPECT_EQ(fibers.topology().joints, (std::vector<std::int32_t>{-1, 7, -1, 7, -1}));
   EXPECT_EQ(fibers.segment_count(), 4U);
-  const TemporaryDirectory directory;
-  const std::string path = directory.path() + "/net.csv";
+  const test::TemporaryDirectory directory;
+  const std::string path = directory.path("net.csv");
   write_csv(path, file);
   const FiberFile again = read_csv(path);
   ASSERT_EQ(again.frames.size(), 1U);
@@ -62,8 +63,9 @@ TEST(CsvTopology, WhatIsWrongIsNamed) {
   const std::string header = "fiber,x,y,z,closed,joint\n";
   EXPECT_EQ(error_in_topology(header + "a,0,0,0,yes,\na,1,0,0,1,\n"),
             "net.csv, line 2: closed is 'yes', expected 0 or 1");
-  EXPECT_EQ(error_in_topology(header + "a,0,0,0,0,1.5\na,1,0,0,0,\n"),
-            "net.csv, line 2: joint is '1.5', expected a whole number below 2147483648, or nothing");
+  EXPECT_EQ(
+      error_in_topology(header + "a,0,0,0,0,1.5\na,1,0,0,0,\n"),
+      "net.csv, line 2: joint is '1.5', expected a whole number below 2147483648, or nothing");
   EXPECT_EQ(error_in_topology(header + "a,0,0,0,1,\na,1,0,0,1,\na,0,1,0,0,\n"),
             "net.csv: fibre 'a' is closed in some of its rows and open in others, closed must be "
             "the same in all");
@@ -83,13 +85,12 @@ TEST(CsvTopology, AJointOfOnePointIsNoted) {
   const FiberFile file =
       read_topology("frame,fiber,x,y,z,joint\n5,a,0,0,0,3\n5,a,1,0,0,\n6,a,0,0,0,\n6,a,1,0,0,\n");
   ASSERT_EQ(file.notes.size(), 1U);
-  EXPECT_EQ(file.notes[0],
-            "frame 5: joint 3 is the number of one point alone: it joins nothing");
+  EXPECT_EQ(file.notes[0], "frame 5: joint 3 is the number of one point alone: it joins nothing");
 }
 
 TEST(CsvTopology, AFileThatBegunWithoutColumnsForItRefusesIt) {
-  const TemporaryDirectory directory;
-  CsvWriter writer(directory.path() + "/late.csv", true);
+  const test::TemporaryDirectory directory;
+  CsvWriter writer(directory.path("late.csv"), true);
   FiberFrame frame;
   frame.fibers = FiberAssembly({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {0, 3}, {0.1});
   writer.write(frame);
@@ -98,13 +99,12 @@ TEST(CsvTopology, AFileThatBegunWithoutColumnsForItRefusesIt) {
   EXPECT_THROW(writer.write(frame), std::invalid_argument);
 }
 
-TEST(HairFile, HoldsNothingThatIsClosedOrJoined) {
-  FiberFile file;
-  file.frames.emplace_back();
-  file.frames[0].fibers =
-      FiberAssembly({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {0, 3}, {0.1}, {{1}, {}, {}});
-  std::ostringstream stream;
-  EXPECT_THROW(write_hair(stream, file), std::invalid_argument);
+TEST(FormatsOfOneFrame, TellThatTheyLoseWhatIsClosedOrJoined) {
+  FiberFrame frame;
+  frame.fibers = FiberAssembly({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {0, 3}, {0.1});
+  EXPECT_TRUE(losses(FileFormat::HAIR, frame).empty());
+  frame.fibers = FiberAssembly({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {0, 3}, {0.1}, {{1}, {}, {}});
+  EXPECT_EQ(losses(FileFormat::HAIR, frame).size(), 1U);
 }
 
 }  // namespace
