@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
-#include <limits>
 #include <optional>
 #include <unordered_map>
 #include <utility>
@@ -14,6 +13,7 @@
 #include "src/io/input_file.hpp"
 #include "src/io/number.hpp"
 #include "src/io/radii.hpp"
+#include "src/io/strands.hpp"
 #include "src/text/quote.hpp"
 
 namespace fiber {
@@ -22,9 +22,9 @@ namespace {
 /// Takes a file line by line and puts its frames together.
 class CsvReader {
  public:
-  CsvReader(std::string name, double default_radius)
-      : name_(std::move(name)), default_radius_(default_radius) {
-    check_default_radius(default_radius);
+  CsvReader(std::string name, const ReadOptions& options)
+      : name_(std::move(name)), options_(options) {
+    check_default_radius(options.default_radius);
   }
 
   void read_line(std::string_view line) {
@@ -61,13 +61,20 @@ class CsvReader {
     }
     file.frames.reserve(frames_.size());
     for (; !frames_.empty(); frames_.pop_front()) {
-      note_lonely_joint(frames_.front());
-      file.frames.push_back(builder_.build(std::move(frames_.front()), name_, default_radius_));
+      file.frames.push_back(builder_.build(std::move(frames_.front()), name_, options_));
     }
     if (!file.has_frames && !builder_.scattered().empty()) {
       notes_.push_back("rows of one fibre do not stand one after another, as of " +
                        quote(builder_.scattered()) +
                        ": without a column frame they are put together");
+    }
+    if (const auto& lonely = builder_.lonely_joint()) {
+      notes_.push_back((file.has_frames ? "frame " + std::to_string(lonely->first) + ": " : "") +
+                       "joint " + std::to_string(lonely->second) +
+                       " is the number of one point alone: it joins nothing");
+    }
+    if (builder_.skipped() > 0) {
+      notes_.push_back(note_of_skipped(builder_.skipped()));
     }
     file.notes = std::move(notes_);
     return file;
@@ -150,20 +157,6 @@ class CsvReader {
                        : "; there is no column fiber: all rows are one fibre");
   }
 
-  /// Often a mistake; one is told of.
-  void note_lonely_joint(const FrameRows& rows) {
-    const std::vector<LonelyJoint> lonely = lonely_joints(rows.joints);
-    if (!lonely.empty() && !has_lonely_joint_) {
-      notes_.push_back(
-          "joint " + std::to_string(lonely.front().joint) + " is of one point only" +
-          (columns_->has(CsvColumns::FRAME) ? " in frame " + std::to_string(rows.number) : "") +
-          (lonely.size() == 1 ? ""
-                              : ", and so are " + std::to_string(lonely.size() - 1) + " more") +
-          ": what is joined has the same number");
-      has_lonely_joint_ = true;
-    }
-  }
-
   void split(std::string_view line) {
     if (const char* const problem = row_.split(line, columns_->separator)) {
       refuse("value " + std::to_string(row_.fields().size() + 1) + ' ' + problem);
@@ -180,8 +173,7 @@ class CsvReader {
   }
 
   void read_row() {
-    enter_frame(columns_->has(CsvColumns::FRAME) ? read_whole("frame", field(CsvColumns::FRAME))
-                                                 : 0);
+    enter_frame(columns_->has(CsvColumns::FRAME) ? read_frame(field(CsvColumns::FRAME)) : 0);
     enter_fiber(columns_->has(CsvColumns::FIBER) ? field(CsvColumns::FIBER) : "0");
     Eigen::Vector3d& point = rows_->points.emplace_back();
     for (int axis = 0; axis < 3; ++axis) {
@@ -208,36 +200,32 @@ class CsvReader {
   }
 
   std::uint8_t read_closed(std::string_view text) const {
-    const auto closed = parse_number<double>(text);
-    if (!closed || (*closed != 0.0 && *closed != 1.0)) {
+    if (text != "0" && text != "1") {
       refuse("closed is " + quote(text) + ", expected 0 or 1");
     }
-    return *closed != 0.0 ? 1 : 0;
+    return text == "1" ? 1 : 0;
   }
 
-  /// Nothing, and a number below 0, is no joint.
+  /// Nothing stands for a point that is not joined.
   std::int32_t read_joint(std::string_view text) const {
-    constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
-    if (text.empty()) {
-      return -1;
+    const auto joint =
+        text.empty() ? std::optional<std::int32_t>(-1) : parse_number<std::int32_t>(text);
+    if (!joint) {
+      refuse("joint is " + quote(text) + ", expected a whole number below 2147483648, or nothing");
     }
-    const std::int64_t joint = read_whole("joint", text);
-    if (joint > most) {
-      refuse("joint is " + quote(text) + ", it must be at most " + std::to_string(most));
-    }
-    return static_cast<std::int32_t>(std::max<std::int64_t>(joint, -1));
+    return *joint;
   }
 
   /// Also of numbers that a program writes as 3.000e+00.
-  std::int64_t read_whole(const char* name, std::string_view text) const {
-    if (const auto whole = parse_number<std::int64_t>(text)) {
-      return *whole;
+  std::int64_t read_frame(std::string_view text) const {
+    if (const auto frame = parse_number<std::int64_t>(text)) {
+      return *frame;
     }
     constexpr double most =
         9'007'199'254'740'992.0;  // 2⁵³: below it doubles are every whole number
     const auto number = parse_number<double>(text);
     if (!number || !(std::abs(*number) < most) || *number != std::floor(*number)) {
-      refuse(name + (" is " + quote(text)) + ", expected a whole number");
+      refuse("frame is " + quote(text) + ", expected a whole number");
     }
     return static_cast<std::int64_t>(*number);
   }
@@ -280,9 +268,8 @@ class CsvReader {
   static constexpr std::size_t longest_begin = 16;  // [byte] enough to know other formats by
 
   const std::string name_;
-  const double default_radius_;  // [m]
+  const ReadOptions& options_;
   std::vector<std::string> notes_;
-  bool has_lonely_joint_ = false;
   std::string begin_;                    // of the file
   std::optional<CsvColumns> columns_;    // nothing before the header
   std::optional<CsvColumns> commented_;  // of a header that is a comment, if it is one
@@ -301,13 +288,13 @@ class CsvReader {
 
 }  // namespace
 
-FiberFile read_csv(const std::string& path, double default_radius) {
+FiberFile read_csv(const std::string& path, const ReadOptions& options) {
   std::ifstream stream = open_to_read(path);
-  return read_csv(stream, path, default_radius);
+  return read_csv(stream, path, options);
 }
 
-FiberFile read_csv(std::istream& stream, const std::string& name, double default_radius) {
-  CsvReader reader(name, default_radius);
+FiberFile read_csv(std::istream& stream, const std::string& name, const ReadOptions& options) {
+  CsvReader reader(name, options);
   for_each_line(stream, name, [&](std::string_view line) { reader.read_line(line); });
   return reader.finish();
 }

@@ -16,19 +16,15 @@ void append_name(std::string& text, const FiberNames& names, std::size_t fiber) 
   }
 }
 
-/// Which columns there are, beside those that always are.
-struct Columns {
-  bool frames;
-  bool joints;
-};
-
-void append_rows(std::string& text, const FiberFrame& frame, Columns columns) {
-  const FiberTopology topology = frame.fibers.topology();
+/// @param topology of the fibres, where the file has columns for it
+void append_rows(std::string& text, const FiberFrame& frame, bool has_frames,
+                 const std::optional<FiberTopology>& topology) {
+  const std::vector<std::uint32_t>& offsets = frame.fibers.offsets();
   const std::vector<std::uint32_t>& given = frame.fibers.given_offsets();
   for (std::size_t fiber = 0; fiber < frame.fibers.fiber_count(); ++fiber) {
-    for (std::size_t i = 0; i < given[fiber + 1] - given[fiber]; ++i) {
-      const std::size_t point = frame.fibers.offsets()[fiber] + i;
-      if (columns.frames) {
+    for (std::uint32_t i = given[fiber]; i < given[fiber + 1]; ++i) {
+      const std::size_t point = i + (offsets[fiber] - given[fiber]);
+      if (has_frames) {
         append_number(text, frame.frame);
         text += ',';
       }
@@ -40,10 +36,10 @@ void append_rows(std::string& text, const FiberFrame& frame, Columns columns) {
       }
       text += ',';
       append_number(text, frame.fibers.radius_at(fiber, point));
-      if (columns.joints) {
+      if (topology) {
         text += frame.fibers.is_closed(fiber) ? ",1," : ",0,";
-        if (!topology.joints.empty() && topology.joints[given[fiber] + i] >= 0) {
-          append_number(text, topology.joints[given[fiber] + i]);
+        if (!topology->joints.empty() && topology->joints[i] >= 0) {
+          append_number(text, topology->joints[i]);
         }
       }
       text += '\n';
@@ -56,11 +52,10 @@ void append_rows(std::string& text, const FiberFrame& frame, Columns columns) {
 CsvWriter::CsvWriter(const std::string& path, bool has_frames)
     : has_frames_(has_frames), file_(path) {}
 
-/// The first frame tells whether there are columns of what is joined.
-void CsvWriter::begin(bool has_joints) {
-  has_joints_ = has_joints;
-  file_.write(has_frames_ ? "frame,fiber,x,y,z,radius" : "fiber,x,y,z,radius");
-  file_.write(has_joints ? ",closed,joint\n" : "\n");
+void CsvWriter::write_header(bool has_topology) {
+  has_topology_ = has_topology;
+  file_.write(std::string(has_frames_ ? "frame," : "") + "fiber,x,y,z,radius" +
+              (has_topology ? ",closed,joint\n" : "\n"));
 }
 
 void CsvWriter::write(const FiberFrame& frame) {
@@ -75,26 +70,27 @@ void CsvWriter::write(const FiberFrame& frame) {
     throw std::invalid_argument(std::to_string(frame.names.size()) + " names for " +
                                 std::to_string(frame.fibers.fiber_count()) + " fibres");
   }
+  const bool has_topology = frame.fibers.graph() != nullptr;
+  if (has_topology_ && has_topology && !*has_topology_) {
+    throw std::invalid_argument("frame " + std::to_string(frame.frame) +
+                                " has closed or joined fibres, and the first frame had none: the "
+                                "file has no columns for them");
+  }
   if (!frames_written_.insert(frame.frame).second) {
     throw std::invalid_argument("frame " + std::to_string(frame.frame) + " was written before");
   }
-  const bool has_joints = frame.fibers.graph() != nullptr;
-  if (frames_written_.size() > 1 && has_joints && !has_joints_) {
-    throw std::invalid_argument("frame " + std::to_string(frame.frame) +
-                                " has fibres that are closed or joined, the first frame has none: "
-                                "the file has no columns for them");
-  }
-  if (frames_written_.size() == 1) {
-    begin(has_joints);
+  if (!has_topology_) {
+    write_header(has_topology);
   }
   rows_.clear();
-  append_rows(rows_, frame, {has_frames_, has_joints_});
+  append_rows(rows_, frame, has_frames_,
+              *has_topology_ ? std::make_optional(frame.fibers.topology()) : std::nullopt);
   file_.write(rows_);
 }
 
 void CsvWriter::finish() {
-  if (frames_written_.empty()) {
-    begin(false);
+  if (!has_topology_) {
+    write_header(false);
   }
   file_.close();
 }
