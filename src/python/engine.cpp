@@ -149,7 +149,7 @@ shape : Fibers, optional
     pairing : "all" (default), "same_fiber", "different_fibers";
     neighbour_skip : int, segments of one fibre whose indices differ by at most this are no pair;
     neighbour_skip_length : float [m], the same by the length between them. With neither of the two,
-    pairs of one fibre count where it makes a loop between them.
+    pairs of one fibre, or of fibres that are joined, count where a loop is between them.
 
 Returns
 -------

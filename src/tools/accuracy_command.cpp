@@ -75,7 +75,8 @@ double margin_of(const AccuracyRequest& request, const std::vector<FiberFrame>& 
   if (survey.closest.empty()) {
     throw std::invalid_argument(
         quote(request.file) + " has no pair of segments in " + looked_at +
-        ": one fibre that makes no loop; --neighbour-skip 1 asks about all of its segments");
+        ": all are of one fibre, or of fibres that are joined, and make no loop; "
+        "--neighbour-skip 1 asks about all of them");
   }
   if (!request.margin) {
     return survey.suggested_margin();
