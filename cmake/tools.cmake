@@ -34,7 +34,7 @@ fiber_proximity_compile_tool(fiber_proximity_query_tools)
 
 # What fiber_query and the node measure of settings, and fiber_bench of answers.
 add_library(fiber_proximity_accuracy STATIC
-  src/accuracy/accuracy_picture.cpp src/accuracy/accuracy_report.cpp
+  src/accuracy/accuracy_picture.cpp src/accuracy/accuracy_report.cpp src/accuracy/doubt_sources.cpp
   src/accuracy/answer_errors.cpp src/accuracy/answer_setting.cpp
   src/accuracy/frame_order.cpp src/accuracy/frame_survey.cpp src/accuracy/noise.cpp
   src/accuracy/recommendation.cpp src/accuracy/resampling.cpp

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Tells what each setting costs and errs on the fibres of a bag, and which one to take.
 
-Usage: accuracy_of_bag.py BAG --topic TOPIC [--radius METRES] [options of `fiber_query accuracy`]
+Usage: accuracy_of_bag.py BAG --topic TOPIC [--radius METRES] [--node NAME] [options of `fiber_query accuracy`]
 
 Writes the messages of the topic as the frames of a fibre file and has `fiber_query accuracy` measure them; the rate
 comes from their stamps. Options that are not named here go on to it: --margin, --noise, --picture, --format …
@@ -14,6 +14,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import time
 
 import numpy as np
 import rosbag
@@ -85,12 +86,38 @@ def fiber_query():
     return tool or refuse('fiber_query is neither beside this script nor on the PATH')
 
 
+def share_of(node, answers=50, patience=20.0):
+    """A line about how much of a running node's answers is its own work, from its next statistics."""
+    import rosgraph
+    import rospy
+    from fiber_proximity.msg import Statistics
+
+    topic = rosgraph.names.ns_join(node, 'statistics')
+    if not rosgraph.is_master_online():
+        return f'no share of {node}: no roscore answers'
+    rospy.init_node('accuracy_of_bag', anonymous=True, disable_signals=True)
+    heard = []
+    subscriber = rospy.Subscriber(topic, Statistics, heard.append)
+    end = time.monotonic() + patience
+    while len(heard) < answers and time.monotonic() < end:
+        time.sleep(0.05)
+    subscriber.unregister()
+    if not heard:
+        return f'no share of {node}: nothing came on {topic} for {patience:g} s'
+    heard = heard[:answers]
+    total = np.array([told.total_time for told in heard])
+    own = total - np.array([told.update_time + told.detect_time for told in heard])
+    return (f"{node}: {len(heard)} answers of {1e3 * np.median(total):.3g} ms (median), of which "
+            f"{1e3 * np.median(own):.3g} ms are the node's own share: all but updates and queries of fibres")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0], allow_abbrev=False,
                                      epilog='Other options go on to fiber_query accuracy; see its --help.')
     parser.add_argument('bag')
     parser.add_argument('--topic', required=True)
     parser.add_argument('--radius', type=float, default=0.0, help='of all fibres [m], where messages have none')
+    parser.add_argument('--node', help='of this node that runs, such as /proximity, tell its own share of the time')
     arguments, options = parser.parse_known_args()
 
     stamps, frames, refused = read(arguments.bag, arguments.topic, arguments.radius)
@@ -106,7 +133,10 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, f'{name}.csv')
         write_frames(path, frames)
-        sys.exit(subprocess.run([fiber_query(), 'accuracy', path, *options], check=False).returncode)
+        ending = subprocess.run([fiber_query(), 'accuracy', path, *options], check=False).returncode
+    if arguments.node:
+        print(f'accuracy_of_bag.py: {share_of(arguments.node)}', file=sys.stderr)
+    sys.exit(ending)
 
 
 if __name__ == '__main__':

@@ -133,6 +133,13 @@ bool AccuracyReport::all_bounds_hold() const {
   return true;
 }
 
+DoubtSources AccuracyReport::doubt(const QuestionReport& question) const {
+  const auto reference =
+      std::find_if(question.outcomes.begin(), question.outcomes.end(),
+                   [](const SettingOutcome& outcome) { return outcome.setting.is_reference; });
+  return doubt_sources(track, question.taken(), *reference);
+}
+
 std::string text_of(const AccuracyReport& report) {
   std::string text =
       report.file + ": " + std::to_string(report.measured_frames) + " of " +
@@ -146,6 +153,12 @@ std::string text_of(const AccuracyReport& report) {
   text += '\n';
   for (const std::string& reason : report.left_out) {
     text += "left out: " + reason + '\n';
+  }
+  const DoubtSources doubt = report.doubt(report.questions.back());
+  text += "doubt about a gap: " + text_of(doubt) + '\n';
+  if (doubt.uncertainty().value_or(0.0) > 0.0) {
+    text += "tell the node: uncertainty: " + rounded_text(*doubt.uncertainty()) +
+            " [m], 4 standard deviations\n";
   }
   for (const QuestionReport& question : report.questions) {
     text += sentence_of(question) + '\n';
@@ -194,9 +207,15 @@ std::string json_of(const AccuracyReport& report) {
       }
       object["settings"].push_back(row);
     }
+    const DoubtSources doubt = report.doubt(question);
     object["recommendations"][question.question] = {
-        {"setting", question.outcomes[question.recommendation.index].setting.name},
-        {"sentence", question.recommendation.sentence}};
+        {"setting", question.taken().setting.name},
+        {"sentence", question.recommendation.sentence},
+        {"doubt",
+         {{"tracker", doubt.tracker ? Json(*doubt.tracker) : Json(nullptr)},
+          {"latency", doubt.latency},
+          {"setting", number_or_null(doubt.setting)},
+          {"kernel", number_or_null(doubt.kernel)}}}};
   }
   object["recommendation"] = sentence_of(report.questions.back());
   return object.dump(-1, ' ', false, Json::error_handler_t::replace) + '\n';

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "src/accuracy/doubt_sources.hpp"
 #include "src/accuracy/noise.hpp"
 #include "src/accuracy/recommendation.hpp"
 #include "src/accuracy/setting_outcome.hpp"
@@ -17,6 +18,8 @@ struct QuestionReport {
   std::vector<SettingOutcome> outcomes;
   std::vector<bool> dominated;  ///< each of the outcomes
   Recommendation recommendation;
+
+  const SettingOutcome& taken() const { return outcomes[recommendation.index]; }
 };
 
 /// What was measured of one question, and what to take for it.
@@ -38,6 +41,9 @@ struct AccuracyReport {
   std::optional<double> frame_time;       ///< [s]
   std::vector<QuestionReport> questions;  ///< the one that is asked about last
   std::vector<std::string> left_out;
+
+  /// Whose the doubt is of the answers to a question with the setting that is recommended.
+  DoubtSources doubt(const QuestionReport& question) const;
 
   /// Whether every bound that an answer stated encloses the truth.
   bool all_bounds_hold() const;

@@ -13,6 +13,7 @@
 #include "src/io/input_file.hpp"
 #include "src/io/number.hpp"
 #include "src/io/radii.hpp"
+#include "src/io/strands.hpp"
 #include "src/text/quote.hpp"
 
 namespace fiber {
@@ -21,9 +22,9 @@ namespace {
 /// Takes a file line by line and puts its frames together.
 class CsvReader {
  public:
-  CsvReader(std::string name, double default_radius)
-      : name_(std::move(name)), default_radius_(default_radius) {
-    check_default_radius(default_radius);
+  CsvReader(std::string name, const ReadOptions& options)
+      : name_(std::move(name)), options_(options) {
+    check_default_radius(options.default_radius);
   }
 
   void read_line(std::string_view line) {
@@ -60,12 +61,20 @@ class CsvReader {
     }
     file.frames.reserve(frames_.size());
     for (; !frames_.empty(); frames_.pop_front()) {
-      file.frames.push_back(builder_.build(std::move(frames_.front()), name_, default_radius_));
+      file.frames.push_back(builder_.build(std::move(frames_.front()), name_, options_));
     }
     if (!file.has_frames && !builder_.scattered().empty()) {
       notes_.push_back("rows of one fibre do not stand one after another, as of " +
                        quote(builder_.scattered()) +
                        ": without a column frame they are put together");
+    }
+    if (const auto& lonely = builder_.lonely_joint()) {
+      notes_.push_back((file.has_frames ? "frame " + std::to_string(lonely->first) + ": " : "") +
+                       "joint " + std::to_string(lonely->second) +
+                       " is the number of one point alone: it joins nothing");
+    }
+    if (builder_.skipped() > 0) {
+      notes_.push_back(note_of_skipped(builder_.skipped()));
     }
     file.notes = std::move(notes_);
     return file;
@@ -182,6 +191,29 @@ class CsvReader {
         refuse("radius is " + quote(text) + ", " + FiberAssembly::radius_rule);
       }
     }
+    if (columns_->has(CsvColumns::CLOSED)) {
+      rows_->closed.push_back(read_closed(field(CsvColumns::CLOSED)));
+    }
+    if (columns_->has(CsvColumns::JOINT)) {
+      rows_->joints.push_back(read_joint(field(CsvColumns::JOINT)));
+    }
+  }
+
+  std::uint8_t read_closed(std::string_view text) const {
+    if (text != "0" && text != "1") {
+      refuse("closed is " + quote(text) + ", expected 0 or 1");
+    }
+    return text == "1" ? 1 : 0;
+  }
+
+  /// Nothing stands for a point that is not joined.
+  std::int32_t read_joint(std::string_view text) const {
+    const auto joint =
+        text.empty() ? std::optional<std::int32_t>(-1) : parse_number<std::int32_t>(text);
+    if (!joint) {
+      refuse("joint is " + quote(text) + ", expected a whole number below 2147483648, or nothing");
+    }
+    return *joint;
   }
 
   /// Also of numbers that a program writes as 3.000e+00.
@@ -236,7 +268,7 @@ class CsvReader {
   static constexpr std::size_t longest_begin = 16;  // [byte] enough to know other formats by
 
   const std::string name_;
-  const double default_radius_;  // [m]
+  const ReadOptions& options_;
   std::vector<std::string> notes_;
   std::string begin_;                    // of the file
   std::optional<CsvColumns> columns_;    // nothing before the header
@@ -256,13 +288,13 @@ class CsvReader {
 
 }  // namespace
 
-FiberFile read_csv(const std::string& path, double default_radius) {
+FiberFile read_csv(const std::string& path, const ReadOptions& options) {
   std::ifstream stream = open_to_read(path);
-  return read_csv(stream, path, default_radius);
+  return read_csv(stream, path, options);
 }
 
-FiberFile read_csv(std::istream& stream, const std::string& name, double default_radius) {
-  CsvReader reader(name, default_radius);
+FiberFile read_csv(std::istream& stream, const std::string& name, const ReadOptions& options) {
+  CsvReader reader(name, options);
   for_each_line(stream, name, [&](std::string_view line) { reader.read_line(line); });
   return reader.finish();
 }

@@ -4,9 +4,11 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "fiber_proximity/io/fiber_formats.hpp"
 #include "src/io/file_format.hpp"
+#include "src/io/input_file.hpp"
 #include "src/io/number.hpp"
-#include "src/io/radii.hpp"
+#include "src/io/one_frame.hpp"
 
 namespace fiber {
 namespace {
@@ -124,10 +126,19 @@ void PvdWriter::append(const std::string& text) {
   file_.check();
 }
 
-FiberFile read_fibers(const std::string& path, double default_radius) {
+FiberFile read_fibers(const std::string& path, const ReadOptions& options) {
   require_format_to_read(path);
-  return format_of(path) == FileFormat::HAIR ? read_hair(path, default_radius)
-                                             : read_csv(path, default_radius);
+  std::ifstream stream = open_to_read(path);
+  switch (format_of(path)) {
+    case FileFormat::HAIR:
+      return read_hair(stream, path, options);
+    case FileFormat::TCK:
+      return read_tck(stream, path, options);
+    case FileFormat::TRK:
+      return read_trk(stream, path, options);
+    default:
+      return read_csv(stream, path, options);
+  }
 }
 
 FiberWriter::FiberWriter(const std::string& path, bool has_frames)
@@ -138,6 +149,9 @@ FiberWriter::FiberWriter(const std::string& path, bool has_frames)
     pvd_.emplace(path);
   } else if (format == FileFormat::CSV) {
     csv_.emplace(path, has_frames);
+  } else if (has_frames) {
+    refuse_to_encode(end_of_name().c_str(),
+                     "it holds exactly 1 frame without a number, not frames with numbers");
   }
 }
 
@@ -150,19 +164,28 @@ void FiberWriter::write(const FiberFrame& frame, std::optional<double> time) {
     pvd_->write(frame, time.value_or(static_cast<double>(frame.frame)));
     return;
   }
-  if (wrote_hair_) {
-    throw std::invalid_argument("a .hair file holds only one frame");
+  if (wrote_frame_) {
+    throw std::invalid_argument("a " + end_of_name() + " file holds only one frame");
   }
-  write_hair(path_, {has_frames_, {frame}});
-  wrote_hair_ = true;
+  // A file that cannot be made is not left behind half.
+  const std::string bytes = encoded(format_of(path_), {has_frames_, {frame}});
+  OutputFile file(path_);
+  file.write(bytes);
+  file.close();
+  wrote_frame_ = true;
 }
 
 void FiberWriter::finish() {
   if (csv_) {
     csv_->finish();
-  } else if (!pvd_ && !wrote_hair_) {
-    throw std::invalid_argument("a .hair file holds exactly one frame, none was written");
+  } else if (!pvd_ && !wrote_frame_) {
+    throw std::invalid_argument("a " + end_of_name() +
+                                " file holds exactly one frame, none was written");
   }
+}
+
+std::string FiberWriter::end_of_name() const {
+  return std::filesystem::path(path_).extension().string();
 }
 
 void write_csv(const std::string& path, const FiberFile& file) { write_all<CsvWriter>(path, file); }

@@ -17,25 +17,32 @@ struct KnownFormat {
   const char* name;
   std::vector<std::string_view> ends;    // of file names
   std::vector<std::string_view> begins;  // of files
+  // Whether fibres are read and written, if not by the tools that run over ranks alone.
+  bool is_read = false;
+  bool is_written = false;
 };
 
-constexpr const char* what_is_read = "CSV and .hair are read, and .h5 by fiber_query_mpi";
+constexpr const char* what_is_read =
+    "CSV, .hair, .tck and .trk are read, and .h5 by fiber_query_mpi";
 constexpr const char* what_is_written =
-    "CSV, .hair and .pvd are written, and .h5 by fiber_query_mpi convert";
+    "CSV, .hair, .pvd, .tck, .trk and .vtp are written, and .h5 by fiber_query_mpi convert";
 
 /// Names that mean none of these are taken for CSV, so a format that people have fibres in, or take
 /// such a name for, has a line here.
 const std::vector<KnownFormat>& known_formats() {
   using namespace std::string_view_literals;
   static const std::vector<KnownFormat> formats{
-      {FileFormat::CSV, "CSV", {".csv", ".tsv"}, {}},
-      {FileFormat::HAIR, "HAIR", {".hair"}, {"HAIR"}},
+      {FileFormat::CSV, "CSV", {".csv", ".tsv"}, {}, true, true},
+      {FileFormat::HAIR, "HAIR", {".hair"}, {"HAIR"}, true, true},
+      {FileFormat::TCK, "MRtrix's tracks", {".tck"}, {"mrtrix"}, true, true},
+      {FileFormat::TRK, "TrackVis's tracks", {".trk"}, {"TRACK\0"sv}, true, true},
       {FileFormat::HDF5, "HDF5", {".h5", ".hdf5", ".hdf", ".vtkhdf"}, {"\x89HDF"}},
-      {FileFormat::PVD, "a collection of VTK", {".pvd"}, {}},
+      {FileFormat::PVD, "a collection of VTK", {".pvd"}, {}, false, true},
+      {FileFormat::VTP, "VTK", {".vtp"}, {}, false, true},
       {FileFormat::JSON, "JSON", {".json", ".jsonl"}, {"{", "["}},
-      {FileFormat::OTHER, "VTK", {".vtp", ".vtk", ".vtu"}, {"# vtk", "<?xml", "<VTKFile"}},
+      {FileFormat::OTHER, "VTK", {".vtk", ".vtu"}, {"# vtk", "<?xml", "<VTKFile"}},
       {FileFormat::OTHER, "NumPy", {".npy", ".npz"}, {"\x93NUMPY"}},
-      {FileFormat::OTHER, "tractography", {".tck", ".trk", ".trx"}, {"mrtrix", "TRACK\0"sv}},
+      {FileFormat::OTHER, "tractography", {".trx"}, {}},
       {FileFormat::OTHER, "SWC", {".swc"}, {}},
       {FileFormat::OTHER, "XYZ", {".xyz"}, {}},
       {FileFormat::OTHER, "PLY", {".ply"}, {"ply"}},
@@ -96,18 +103,24 @@ std::string format_of_content(std::string_view begin) {
   return "";
 }
 
+bool holds_one_frame(FileFormat format) {
+  return format != FileFormat::CSV && format != FileFormat::PVD &&
+         std::any_of(known_formats().begin(), known_formats().end(), [&](const KnownFormat& known) {
+           return known.format == format && known.is_written;
+         });
+}
+
 void require_format_to_read(const std::string& path) {
-  const FileFormat format = format_of(path);
-  if (format != FileFormat::CSV && format != FileFormat::HAIR) {
-    throw FileError(
-        path, "is " + std::string(format_of_name(path)->name) + " by its name; " + what_is_read);
+  const KnownFormat* const known = format_of_name(path);
+  if (known != nullptr && !known->is_read) {
+    throw FileError(path, "is " + std::string(known->name) + " by its name; " + what_is_read);
   }
 }
 
 void require_format_to_write(const std::string& path) {
-  const FileFormat format = format_of(path);
-  if (format == FileFormat::HDF5 || format == FileFormat::JSON || format == FileFormat::OTHER) {
-    throw std::invalid_argument(quote(path) + " is a name of " + format_of_name(path)->name + "; " +
+  const KnownFormat* const known = format_of_name(path);
+  if (known != nullptr && !known->is_written) {
+    throw std::invalid_argument(quote(path) + " is a name of " + known->name + "; " +
                                 what_is_written);
   }
 }

@@ -11,7 +11,10 @@ namespace fiber {
 /// Formats of files with fibres, and of tables about them.
 enum class FileFormat {
   CSV,
-  HAIR,   ///< one frame
+  HAIR,  ///< one frame, as all of other programs
+  TCK,
+  TRK,
+  VTP,    ///< of ParaView
   PVD,    ///< for ParaView, written only
   HDF5,   ///< by the tools that run over ranks
   JSON,   ///< answers only
@@ -27,6 +30,9 @@ FIBER_PROXIMITY_EXPORT FileFormat format_of(const std::string& path);
 /// The format of a file with a name of CSV, by its first bytes, for an error; "" if they are none
 /// that are known.
 std::string format_of_content(std::string_view begin);
+
+/// Whether a format is written here and holds one frame.
+FIBER_PROXIMITY_EXPORT bool holds_one_frame(FileFormat format);
 
 /// Sees that fibres can be read from a file of this name here, without ranks.
 /// @throws FileError

@@ -1,13 +1,14 @@
 #pragma once
 
-#include <boost/endian/conversion.hpp>
 #include <cstddef>
 #include <cstdint>
+
+#include "src/io/bytes.hpp"
 
 namespace fiber::hair_format {
 
 // Files are read and written as they are in memory.
-static_assert(boost::endian::order::native == boost::endian::order::little);
+static_assert(native_order == ByteOrder::LITTLE);
 
 constexpr char signature[] = {'H', 'A', 'I', 'R'};
 

@@ -1,34 +1,16 @@
-#include <cmath>
 #include <limits>
-#include <stdexcept>
 
 #include "fiber_proximity/io/fiber_file.hpp"
+#include "src/io/bytes.hpp"
 #include "src/io/hair_format.hpp"
-#include "src/io/number.hpp"
-#include "src/io/radii.hpp"
+#include "src/io/one_frame.hpp"
 
 namespace fiber {
 namespace {
 
 using namespace hair_format;
 
-/// As it is in memory.
-template <class Value>
-void append(std::string& bytes, const Value& value) {
-  bytes.append(reinterpret_cast<const char*>(&value), sizeof(value));
-}
-
-[[noreturn]] void refuse(const std::string& reason) {
-  throw std::invalid_argument("a .hair file cannot hold this: " + reason);
-}
-
-float single_precision(double value, const char* what, std::size_t fiber, std::size_t point) {
-  if (std::abs(value) > std::numeric_limits<float>::max()) {
-    refuse("fibre " + std::to_string(fiber) + ", point " + std::to_string(point) + ": " + what +
-           " is " + text_of(value) + ", beyond single precision");
-  }
-  return static_cast<float>(value);
-}
+[[noreturn]] void refuse(const std::string& reason) { refuse_to_encode(".hair", reason); }
 
 std::uint32_t segments_of(const FiberAssembly& fibers, std::size_t fiber) {
   return fibers.offsets()[fiber + 1] - fibers.offsets()[fiber] - 1;
@@ -53,7 +35,7 @@ Header header_of(const FiberAssembly& fibers, std::uint32_t flags) {
   header.default_segments = common_segments(fibers);
   const bool shared_radius = (flags & THICKNESS) == 0;
   const double thickness = shared_radius ? 2.0 * fibers.radii().front() : 0.0;
-  header.default_thickness = single_precision(thickness, "the thickness", 0, 0);
+  header.default_thickness = single_precision(".hair", thickness, "the thickness", 0, 0);
   return header;
 }
 
@@ -66,32 +48,18 @@ void append_segments(std::string& bytes, const FiberAssembly& fibers) {
              " segments, more than " + std::to_string(max_segments) +
              " and not as many as the others");
     }
-    append(bytes, static_cast<std::uint16_t>(segments));
-  }
-}
-
-/// Calls visit(fibre, index of the point) for all points.
-template <class Visit>
-void for_each_point(const FiberAssembly& fibers, const Visit& visit) {
-  for (std::size_t fiber = 0; fiber < fibers.fiber_count(); ++fiber) {
-    for (std::size_t i = fibers.offsets()[fiber]; i < fibers.offsets()[fiber + 1]; ++i) {
-      visit(fiber, i);
-    }
+    append_value(bytes, static_cast<std::uint16_t>(segments));
   }
 }
 
 std::string encoded(const FiberFile& file) {
-  if (file.has_frames || file.frames.size() != 1) {
-    refuse("it holds exactly 1 frame without a number, not " + std::to_string(file.frames.size()) +
-           (file.has_frames ? " with numbers" : ""));
-  }
-  const FiberAssembly& fibers = file.frames.front().fibers;
+  const FiberAssembly& fibers = only_frame(".hair", file).fibers;
   const bool segments_differ = fibers.fiber_count() > 0 && common_segments(fibers) == 0;
   const bool radii_differ = fibers.radius_per() != RadiusPer::ASSEMBLY;
   const std::uint32_t flags =
       POINTS | (segments_differ ? SEGMENTS : 0U) | (radii_differ ? THICKNESS : 0U);
   std::string bytes(signature, sizeof(signature));
-  append(bytes, header_of(fibers, flags));
+  append_value(bytes, header_of(fibers, flags));
   bytes.reserve(bytes.size() + 2 * fibers.fiber_count() + 16 * fibers.point_count());
   if (segments_differ) {
     append_segments(bytes, fibers);
@@ -99,14 +67,14 @@ std::string encoded(const FiberFile& file) {
   for_each_point(fibers, [&](std::size_t fiber, std::size_t i) {
     for (int axis = 0; axis < 3; ++axis) {
       const char name[] = {"xyz"[axis], '\0'};
-      append(bytes,
-             single_precision(fibers.points()[i][axis], name, fiber, i - fibers.offsets()[fiber]));
+      append_value(bytes, single_precision(".hair", fibers.points()[i][axis], name, fiber,
+                                           i - fibers.offsets()[fiber]));
     }
   });
   if (radii_differ) {
     for_each_point(fibers, [&](std::size_t fiber, std::size_t i) {
-      append(bytes, single_precision(2.0 * fibers.radius_at(fiber, i), "the thickness", fiber,
-                                     i - fibers.offsets()[fiber]));
+      append_value(bytes, single_precision(".hair", 2.0 * fibers.radius_at(fiber, i),
+                                           "the thickness", fiber, i - fibers.offsets()[fiber]));
     });
   }
   return bytes;

@@ -4,6 +4,8 @@
 #include <utility>
 
 #include "fiber_proximity/io/fiber_file.hpp"
+#include "src/io/file_format.hpp"
+#include "src/io/one_frame.hpp"
 #include "src/python/bindings.hpp"
 #include "src/python/errors.hpp"
 #include "src/python/fibers.hpp"
@@ -11,30 +13,37 @@
 namespace fiber::python {
 namespace {
 
-FiberFile read_without_lock(const std::string& path, double default_radius) {
+FiberFile read_without_lock(const std::string& path, const ReadOptions& options) {
   const WithoutPythonLock others_may_run;
   try {
-    return read_fibers(path, default_radius);
+    return read_fibers(path, options);
   } catch (const FileError& error) {
     throw std::invalid_argument(error.what());  // it can be read, so what it holds is wrong
   }
 }
 
-/// Warns of all in the file that was not read.
-FiberFile read_file(const std::string& path, double default_radius) {
-  require_readable(path);
-  FiberFile file = read_without_lock(path, default_radius);
-  for (const std::string& note : file.notes) {
+void warn(const std::string& path, const std::vector<std::string>& notes) {
+  for (const std::string& note : notes) {
     if (PyErr_WarnEx(PyExc_UserWarning, (path + ": " + note).c_str(), 1) != 0) {
       throw py::error_already_set();
     }
   }
+}
+
+/// Warns of all in the file that was not read.
+FiberFile read_file(const std::string& path, double default_radius, bool skip_single_points) {
+  require_readable(path);
+  ReadOptions options(default_radius);
+  options.skip_single_points = skip_single_points;
+  FiberFile file = read_without_lock(path, options);
+  warn(path, file.notes);
   return file;
 }
 
-std::shared_ptr<Fibers> read(const py::object& path, double default_radius) {
+std::shared_ptr<Fibers> read(const py::object& path, double default_radius,
+                             bool skip_single_points) {
   const std::string name = to_path(path);
-  FiberFile file = read_file(name, default_radius);
+  FiberFile file = read_file(name, default_radius, skip_single_points);
   if (file.frames.size() != 1) {
     throw std::invalid_argument(name + " holds " + std::to_string(file.frames.size()) +
                                 " frames: read_frames() reads them");
@@ -44,8 +53,9 @@ std::shared_ptr<Fibers> read(const py::object& path, double default_radius) {
 }
 
 std::vector<std::pair<std::int64_t, std::shared_ptr<Fibers>>> read_frames(const py::object& path,
-                                                                          double default_radius) {
-  FiberFile file = read_file(to_path(path), default_radius);
+                                                                          double default_radius,
+                                                                          bool skip_single_points) {
+  FiberFile file = read_file(to_path(path), default_radius, skip_single_points);
   std::vector<std::pair<std::int64_t, std::shared_ptr<Fibers>>> frames;
   frames.reserve(file.frames.size());
   for (FiberFrame& frame : file.frames) {
@@ -58,11 +68,16 @@ std::vector<std::pair<std::int64_t, std::shared_ptr<Fibers>>> read_frames(const 
 void write(const py::object& path, const py::object& fibers) {
   const std::string name = to_path(path);
   const Fibers::State state = to_state(fibers, "fibers");
-  const FiberNames names = fibers.cast<const Fibers&>().names();
-  const WithoutPythonLock others_may_run;
-  FiberWriter writer(name, false);
-  writer.write({0, *state, names});
-  writer.finish();
+  const FiberFrame frame{0, *state, fibers.cast<const Fibers&>().names()};
+  {
+    const WithoutPythonLock others_may_run;
+    FiberWriter writer(name, false);
+    writer.write(frame);
+    writer.finish();
+  }
+  if (holds_one_frame(format_of(name))) {
+    warn(name, losses(format_of(name), frame));
+  }
 }
 
 void write_frames(const py::object& path, const py::iterable& frames, const py::object& times) {
@@ -111,10 +126,12 @@ void bind_files(py::module& module) {
       PyErr_SetObject(reinterpret_cast<PyObject*>(Py_TYPE(made.ptr())), made.ptr());
     }
   });
-  module.def("read", &read, py::arg("path"), py::arg("default_radius") = 0.0, R"(
-Reads a file of fibres at one moment: CSV or .hair.
+  module.def("read", &read, py::arg("path"), py::arg("default_radius") = 0.0,
+             py::arg("skip_single_points") = false, R"(
+Reads a file of fibres at one moment: .csv, .hair, .tck or .trk, as its name ends.
 
-CSV has a header with the columns x, y, z and, where there are any, fiber (names), frame and radius,
+Tractograms (.tck, .trk) are in millimetres and become metres; .hair states no unit and is taken as
+metres. CSV has a header with the columns x, y, z and, where there are any, fiber (names), frame and radius,
 in any order, separated by commas, semicolons, tabs or blanks. A warning names others.
 
 Parameters
@@ -122,6 +139,9 @@ Parameters
 path : str or os.PathLike
 default_radius : float [m]
     Of all fibres if the file has no radii.
+skip_single_points : bool
+    Leave out fibres of fewer than two points, with a warning of how many there were; without it
+    they are an error.
 
 Returns
 -------
@@ -133,21 +153,24 @@ FileNotFoundError, OSError
     For a file that cannot be read.
 ValueError
     For what it should not hold, naming file and line; for several frames; for a name of another
-    format, as .h5 or .vtp.
+    format, as .h5 or .npy.
 )");
   module.def("read_frames", &read_frames, py::arg("path"), py::arg("default_radius") = 0.0,
+             py::arg("skip_single_points") = false,
              "Reads a file with frames (a CSV file with a column `frame`): a list of "
              "(number, Fibers). A file without numbers has one frame, 0. Raises as ``read()``.");
   module.def("write", &write, py::arg("path"), py::arg("fibers"), R"(
-Writes fibres to a file: .hair, .pvd for ParaView, or CSV. Numbers read back as the same, but for
-.hair, which has single precision; CSV has names of fibres, too.
+Writes fibres to a file, as its name ends: .csv, .hair, .tck, .trk, .vtp, or .pvd for ParaView.
+Numbers read back as the same, but for .hair, .tck and .trk, which have single precision; .tck and
+.trk are written in millimetres, as those formats are. Only CSV has names of fibres, and .tck has no
+radii: a warning tells what is lost.
 
 Raises
 ------
 FileNotFoundError, OSError
     For a file that cannot be written.
 ValueError
-    For fibres that the format cannot hold; for a name of another format, as .h5 or .vtp.
+    For fibres that the format cannot hold; for a name of another format, as .h5 or .npy.
 
 >>> import os, tempfile
 >>> from fiber_proximity import Fibers, read, write

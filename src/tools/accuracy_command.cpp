@@ -46,7 +46,7 @@ std::string frames_text(std::size_t count) {
 
 /// The frames of a file that have segments.
 std::vector<FiberFrame> read_frames(const AccuracyRequest& request) {
-  FiberFile file = read_input("fiber_query", request.file, request.radius);
+  FiberFile file = read_input("fiber_query", request.file, request.reading);
   std::vector<FiberFrame> frames;
   for (FiberFrame& frame : file.frames) {
     if (frame.fibers.segment_count() > 0) {

@@ -171,7 +171,7 @@ void add_check_options(CLI::App& app, CheckRequest& request, const std::string& 
                  "closest, all, fiber_pairs: of it with itself, with the fibres and with objects")
       ->check(CLI::IsMember({"first", "closest", "all", "fiber_pairs"}))
       ->capture_default_str();
-  add_radius_option(app, request.radius);
+  add_read_options(app, request.reading);
   add_threads_option(app, request.threads, threads);
   add_neighbour_options(app, request.query.neighbour_skip, request.query.neighbour_skip_length);
   add_kernel_option(app, request.query.kernel);

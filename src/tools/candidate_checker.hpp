@@ -17,8 +17,8 @@ namespace fiber {
 
 /// The options of `check`, with ranks and without.
 struct CheckRequest {
-  std::string file;         // of candidates, each frame one
-  double radius = 0.0;      // [m]
+  std::string file;  // of candidates, each frame one
+  ReadOptions reading;
   std::string environment;  // a YAML file, "" for none
   std::string fibers;       // a file with the fibres that there are, "" for none
   std::string type = "first";

@@ -19,14 +19,14 @@ namespace {
 ExitCode run_check(const CheckRequest& request) {
   std::optional<FiberFrame> fibers;
   if (!request.fibers.empty()) {
-    FiberFile file = read_input("fiber_query", request.fibers, request.radius);
+    FiberFile file = read_input("fiber_query", request.fibers, request.reading);
     if (file.frames.empty()) {
       throw FileError(request.fibers, "has no fibres");
     }
     fibers = std::move(file.frames.front());
   }
   CandidateChecker checker(request, std::move(fibers));
-  FiberFile file = read_input("fiber_query", request.file, request.radius);
+  FiberFile file = read_input("fiber_query", request.file, request.reading);
   TextOutput output(std::cout);
   output.write(check_header(file.has_frames));
   for (auto begin = file.frames.begin(); begin != file.frames.end();) {

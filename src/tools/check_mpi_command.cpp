@@ -33,7 +33,7 @@ std::string run_of(const Communicator& ranks, const CheckRequest& request) {
   const auto text_of_file = [&](const std::string& path) {
     return path.empty() ? std::string("none") : description_of_file(ranks, path);
   };
-  return "check of " + text_of_file(request.file) + ", radius " + text_of(request.radius) +
+  return "check of " + text_of_file(request.file) + ", " + text_of(request.reading) +
          ", environment " + text_of_file(request.environment) + ", fibers " +
          text_of_file(request.fibers) + ", self " + (request.without_self ? "no" : "yes") +
          ", type " + request.type + text_of_pairs(request.query);
@@ -81,12 +81,12 @@ ExitCode run(const RankCheckRequest& request) {
   }
   std::optional<FiberFrame> fibers;
   if (!request.fibers.empty()) {
-    fibers =
-        FiberSource(ranks, request.fibers, request.radius, FrameSharing::WHOLE).take_first_on_all();
+    fibers = FiberSource(ranks, request.fibers, request.reading, FrameSharing::WHOLE)
+                 .take_first_on_all();
   }
   std::optional<CandidateChecker> checker;
   ranks.throw_on_all(error_in([&] { checker.emplace(request, std::move(fibers)); }));
-  FiberSource source(ranks, request.file, request.radius, FrameSharing::WHOLE);
+  FiberSource source(ranks, request.file, request.reading, FrameSharing::WHOLE);
   ParallelTextFile text(ranks, request.out,
                         {source.has_frames(), run_of(ranks, request), request.resume});
   if (text.done() == 0) {

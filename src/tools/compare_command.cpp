@@ -209,7 +209,7 @@ ExitCode run(const CompareRequest& request) {
   FclComparer comparer;
   Totals totals;
   write_frames(
-      request.file, request.radius, csv ? csv_columns() : "",
+      request.file, request.reading, csv ? csv_columns() : "",
       [&](const FrameNumber& number, const FiberFrame& frame, TextOutput& output) {
         const auto begin = std::chrono::steady_clock::now();
         engine->update(frame.fibers);

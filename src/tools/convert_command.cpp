@@ -10,7 +10,7 @@
 #include "fiber_proximity/io/fiber_file.hpp"
 #include "fiber_proximity/mpi/distributed_files.hpp"
 #include "src/io/file_format.hpp"
-#include "src/io/number.hpp"
+#include "src/io/one_frame.hpp"
 #include "src/mpi/communicator.hpp"
 #include "src/mpi/gather_fibers.hpp"
 #include "src/mpi/partial_file.hpp"
@@ -18,14 +18,17 @@
 #include "src/tools/fiber_query_mpi.hpp"
 #include "src/tools/fiber_source.hpp"
 #include "src/tools/mpi_tool.hpp"
+#include "src/tools/query_options.hpp"
 
 namespace fiber {
 namespace {
 
+constexpr const char* ends_of_out = ".h5, .csv, .hair, .tck, .trk or .vtp";
+
 struct ConvertRequest {
   std::string in;
   std::string out;
-  double radius = 0.0;  // [m]
+  ReadOptions reading;
   bool resume = false;
 };
 
@@ -35,7 +38,7 @@ void convert_to_hdf5(const Communicator& ranks, const ConvertRequest& request,
   options.has_frames = source.has_frames();
   options.resume = request.resume;
   options.run =
-      "fibres of " + description_of_file(ranks, request.in) + ", radius " + text_of(request.radius);
+      "fibres of " + description_of_file(ranks, request.in) + ", " + text_of(request.reading);
   DistributedFiberWriter writer(ranks.handle(), request.out, options);
   Progress progress = rank_progress(ranks);
   DistributedFibers fibers;
@@ -51,7 +54,7 @@ void convert_to_hdf5(const Communicator& ranks, const ConvertRequest& request,
 class SerialFile {
  public:
   SerialFile(WritePlace place, FileFormat format, bool has_frames)
-      : place_(std::move(place)), has_frames_(has_frames) {
+      : place_(std::move(place)), format_(format), has_frames_(has_frames) {
     if (format == FileFormat::CSV) {
       csv_.emplace(written(), has_frames);
     } else if (place_.is_file) {
@@ -73,10 +76,12 @@ class SerialFile {
     }
     FiberFile file{has_frames_, {}};
     file.frames.push_back(std::move(frame));
-    write_hair(written(), file);
-    if (!file.frames.front().names.are_indices()) {
-      std::cerr << "fiber_query_mpi: " << place_.path
-                << ": .hair has no names: fibres are only in their order\n";
+    const std::string bytes = encoded(format_, file);
+    OutputFile output(written());
+    output.write(bytes);
+    output.close();
+    for (const std::string& lost : losses(format_, file.frames.front())) {
+      std::cerr << "fiber_query_mpi: " << place_.path << ": " << lost << '\n';
     }
   }
 
@@ -93,8 +98,9 @@ class SerialFile {
   std::string written() const { return place_.is_file ? partial_name(place_.path) : place_.path; }
 
   const WritePlace place_;
+  const FileFormat format_;
   const bool has_frames_;
-  std::optional<CsvWriter> csv_;  // else .hair
+  std::optional<CsvWriter> csv_;  // else a format of one frame
 };
 
 void convert_run_on_root(const Communicator& ranks, const ConvertRequest& request,
@@ -116,8 +122,8 @@ void convert_run_on_root(const Communicator& ranks, const ConvertRequest& reques
 ExitCode convert(const ConvertRequest& request) {
   const std::optional<FileFormat> format = format_meant(request.out);
   const bool is_hdf5 = format == FileFormat::HDF5;
-  if (!is_hdf5 && format != FileFormat::HAIR && format != FileFormat::CSV) {
-    throw std::invalid_argument("OUT: " + quote(request.out) + " must end in .h5, .csv or .hair");
+  if (!is_hdf5 && format != FileFormat::CSV && !(format && holds_one_frame(*format))) {
+    throw std::invalid_argument("OUT: " + quote(request.out) + " must end in " + ends_of_out);
   }
   if (request.resume && !is_hdf5) {
     throw std::invalid_argument("--resume: only files of HDF5 can be gone on with, OUT is " +
@@ -125,7 +131,7 @@ ExitCode convert(const ConvertRequest& request) {
   }
   const Communicator ranks(MPI_COMM_WORLD);
   require_other_file(ranks, request.in, request.out);
-  FiberSource source(ranks, request.in, request.radius, FrameSharing::PARTS);
+  FiberSource source(ranks, request.in, request.reading, FrameSharing::PARTS);
   if (is_hdf5) {
     convert_to_hdf5(ranks, request, source);
   } else {
@@ -138,14 +144,15 @@ ExitCode convert(const ConvertRequest& request) {
 
 void add_convert(CLI::App& app, Command& command) {
   const auto request = std::make_shared<ConvertRequest>();
-  CLI::App* const subcommand =
-      app.add_subcommand("convert", "fibres in another format: .h5, .csv or .hair, as names end");
-  subcommand->add_option("IN", request->in, "fibre file (.h5, .csv or .hair)")->required();
+  CLI::App* const subcommand = app.add_subcommand(
+      "convert", std::string("fibres in another format, as names end: ") + ends_of_out);
+  subcommand->add_option("IN", request->in, "fibre file (.h5, or any that fiber_query reads)")
+      ->required();
   subcommand
       ->add_option("OUT", request->out,
                    "what to write; all fibres of a frame are on rank 0 unless both files are .h5")
       ->required();
-  add_radius_option(*subcommand, request->radius);
+  add_read_options(*subcommand, request->reading);
   subcommand->add_flag("--resume", request->resume,
                        "go on after the last whole frame of a run that was interrupted (.h5)");
   subcommand->callback([&command, request] { command = [request] { return convert(*request); }; });

@@ -48,7 +48,7 @@ ExitCode run(const Request& request, const Ask& ask) {
       make_engine(request.engine, request.engine_options);
   const bool json = request.format == "json";
   QueryResult result;
-  return write_frames(request.file, request.radius, json ? "" : contact_columns,
+  return write_frames(request.file, request.reading, json ? "" : contact_columns,
                       [&](const FrameNumber& number, const FiberFrame& frame, TextOutput& output) {
                         engine->update(frame.fibers);
                         ask(*engine, result);
@@ -124,10 +124,11 @@ void add_engine_option(CLI::App& app, std::string& engine) {
   app.add_option("--engine", engine, "one of " + join(engine_names()))->capture_default_str();
 }
 
-ExitCode write_frames(const std::string& path, double radius, const std::string& columns,
+ExitCode write_frames(const std::string& path, const ReadOptions& reading,
+                      const std::string& columns,
                       const std::function<void(const FrameNumber& number, const FiberFrame& frame,
                                                TextOutput& output)>& write) {
-  const FiberFile file = read_input("fiber_query", path, radius);
+  const FiberFile file = read_input("fiber_query", path, reading);
   TextOutput output(std::cout);
   if (!columns.empty()) {
     output.write((file.has_frames ? "frame," : "") + columns);

@@ -41,7 +41,7 @@ void add_sweep(CLI::App& app, Command& command);
 void add_topology(CLI::App& app, Command& command);
 
 constexpr const char* file_help =
-    "fibre file: .hair, or CSV with the columns x, y, z and where there are any frame, fiber (a "
+    "fibre file: .hair, .tck or .trk, or CSV with the columns x, y, z and where there are any frame, fiber (a "
     "name, which answers repeat) and radius";
 constexpr const char* threads_help = "most threads to use, 0 for as many as there are cores";
 
@@ -49,9 +49,9 @@ constexpr const char* threads_help = "most threads to use, 0 for as many as ther
 void add_engine_option(CLI::App& app, std::string& engine);
 
 /// Reads a file of fibres, and writes to stdout what is to be said of each frame.
-/// @param radius  [m] of all fibres, if the file has no radii
 /// @param columns of CSV, after the number of the frame; "" for another format
-ExitCode write_frames(const std::string& path, double radius, const std::string& columns,
+ExitCode write_frames(const std::string& path, const ReadOptions& reading,
+                      const std::string& columns,
                       const std::function<void(const FrameNumber& number, const FiberFrame& frame,
                                                TextOutput& output)>& write);
 

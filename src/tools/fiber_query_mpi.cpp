@@ -40,8 +40,8 @@ struct Question {
 /// Names all that the answer depends on.
 std::string run_of(const Communicator& ranks, const MpiRequest& request, const Question& question) {
   const QueryOptions& query = question.query;
-  return question.name + " of " + description_of_file(ranks, request.file) + ", radius " +
-         text_of(request.radius) + text_of_pairs(query) + ", tolerance " +
+  return question.name + " of " + description_of_file(ranks, request.file) + ", " +
+         text_of(request.reading) + text_of_pairs(query) + ", tolerance " +
          text_of(query.tolerance) + ", relative_tolerance " + text_of(query.relative_tolerance) +
          ", deadline " + text_of(query.deadline);
 }
@@ -74,7 +74,7 @@ ExitCode run(const MpiRequest& request, const Question& question) {
   const Communicator ranks(MPI_COMM_WORLD);
   require_other_file(ranks, request.file, request.out);
   DistributedEngine engine(MPI_COMM_WORLD, request.engine_options);
-  FiberSource source(ranks, request.file, request.radius, FrameSharing::PARTS);
+  FiberSource source(ranks, request.file, request.reading, FrameSharing::PARTS);
   DistributedFileOptions options;
   options.has_frames = source.has_frames();
   options.resume = request.resume;

@@ -49,11 +49,11 @@ void on_rank_alone(const std::string& context, const Work& work) {
 
 }  // namespace
 
-FiberSource::FiberSource(const Communicator& ranks, const std::string& path, double radius,
-                         FrameSharing sharing)
+FiberSource::FiberSource(const Communicator& ranks, const std::string& path,
+                         const ReadOptions& reading, FrameSharing sharing)
     : ranks_(ranks), alone_(MPI_COMM_SELF), path_(path) {
   if (!is_hdf5_name(path)) {
-    run_on_root(ranks_, [&] { file_ = read_input("fiber_query_mpi", path, radius); });
+    run_on_root(ranks_, [&] { file_ = read_input("fiber_query_mpi", path, reading); });
     has_frames_ = ranks_.broadcast(file_.has_frames);
     frame_count_ = ranks_.broadcast(file_.frames.size());
     return;

@@ -24,9 +24,9 @@ enum class FrameSharing {
 class FiberSource {
  public:
   /// Collective.
-  /// @param radius [m] of all fibres, if the file has no radii
+  /// @param reading how a file that is not HDF5 is read
   /// @throws std::invalid_argument on all ranks
-  FiberSource(const Communicator& ranks, const std::string& path, double radius,
+  FiberSource(const Communicator& ranks, const std::string& path, const ReadOptions& reading,
               FrameSharing sharing);
 
   bool has_frames() const { return has_frames_; }

@@ -2,18 +2,28 @@
 
 #include <limits>
 
+#include "src/io/number.hpp"
+
 namespace fiber {
 
 void add_fiber_options(CLI::App& app, FiberRequest& request, const std::string& file,
                        const std::string& threads) {
   app.add_option("FILE", request.file, file)->required();
-  add_radius_option(app, request.radius);
+  add_read_options(app, request.reading);
   add_threads_option(app, request.engine_options.threads, threads);
 }
 
-void add_radius_option(CLI::App& app, double& radius) {
-  app.add_option("--radius", radius, "of all fibres, if the file has no radii [m]")
+void add_read_options(CLI::App& app, ReadOptions& reading) {
+  app.add_option("--radius", reading.default_radius, "of all fibres, if the file has no radii [m]")
       ->capture_default_str();
+  app.add_flag("--skip-single-points", reading.skip_single_points,
+               "leave out fibres of fewer than two points, and tell how many there were; without "
+               "this such a file is refused");
+}
+
+std::string text_of(const ReadOptions& reading) {
+  return "radius " + text_of(reading.default_radius) +
+         (reading.skip_single_points ? ", single points skipped" : "");
 }
 
 void add_threads_option(CLI::App& app, std::uint32_t& threads, const std::string& help) {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "fiber_proximity/io/fiber_file.hpp"
 #include "fiber_proximity/query/engine.hpp"
 #include "fiber_proximity/query/motion.hpp"
 #include "src/tools/command_line.hpp"
@@ -19,17 +20,22 @@ constexpr const char* format_help =
 /// A file of fibres, and how engines work that answer questions about them.
 struct FiberRequest {
   std::string file;
-  double radius = 0.0;  // [m]
+  ReadOptions reading;
   EngineOptions engine_options;
 };
 
-/// FILE, the radius and the number of threads.
+/// FILE, how it is read, and the number of threads.
 /// @param file    help for the file
 /// @param threads help for the number of threads
 void add_fiber_options(CLI::App& app, FiberRequest& request, const std::string& file,
                        const std::string& threads);
 
-void add_radius_option(CLI::App& app, double& radius);
+/// Adds `--radius` and `--skip-single-points`.
+void add_read_options(CLI::App& app, ReadOptions& reading);
+
+/// What an answer depends on of them, as the runs of files that can be gone on with are named.
+std::string text_of(const ReadOptions& reading);
+
 void add_threads_option(CLI::App& app, std::uint32_t& threads, const std::string& help);
 
 /// Adds `--kernel`, which says how distances are computed.

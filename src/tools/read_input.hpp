@@ -8,11 +8,10 @@
 namespace fiber {
 
 /// Reads a fibre file, and tells on stderr what of it is not read.
-/// @param tool   that tells it
-/// @param radius [m] of all fibres, if the file has no radii
+/// @param tool that tells it
 /// @throws as read_fibers()
-inline FiberFile read_input(const char* tool, const std::string& path, double radius) {
-  FiberFile file = read_fibers(path, radius);
+inline FiberFile read_input(const char* tool, const std::string& path, const ReadOptions& reading) {
+  FiberFile file = read_fibers(path, reading);
   for (const std::string& note : file.notes) {
     std::cerr << tool << ": " << path << ": " << note << '\n';
   }

@@ -70,7 +70,7 @@ class Sweeper {
 ExitCode run(const SweepCommand& request) {
   const std::unique_ptr<ProximityEngine> engine =
       make_engine(request.engine, request.engine_options);
-  const FiberFile file = read_input("fiber_query", request.file, request.radius);
+  const FiberFile file = read_input("fiber_query", request.file, request.reading);
   require_motion(request.file, file.has_frames, file.frames.size());
   TextOutput output(std::cout);
   output.write(sweep_columns);

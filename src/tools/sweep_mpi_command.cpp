@@ -116,7 +116,7 @@ ExitCode run(const SweepMpiRequest& request) {
   const Communicator ranks(MPI_COMM_WORLD);
   require_other_file(ranks, request.file, request.out);
   RankSweeper sweeper(ranks, request);
-  FiberSource source(ranks, request.file, request.radius, FrameSharing::PARTS);
+  FiberSource source(ranks, request.file, request.reading, FrameSharing::PARTS);
   require_motion(request.file, source.has_frames(), source.frame_count());
   ParallelTextFile text(ranks, request.out);
   text.append([&](TextOutput& output) {

@@ -16,7 +16,7 @@ namespace {
 struct TopologyRequest {
   std::string file;
   std::string format = "csv";
-  double radius = 0.0;  // [m]
+  ReadOptions reading;
   std::uint32_t threads = 0;
   View view;
   CurveEnds ends = CurveEnds::OPEN;
@@ -33,7 +33,7 @@ template <class Ask, class ToJson, class ToRow>
 ExitCode run(const TopologyRequest& request, const std::string& columns, const char* name,
              const Ask& ask, const ToJson& to_json, const ToRow& to_row) {
   return write_frames(
-      request.file, request.radius, request.json() ? "" : columns,
+      request.file, request.reading, request.json() ? "" : columns,
       [&](const FrameNumber& number, const FiberFrame& frame, TextOutput& output) {
         const auto& items = ask(frame.fibers);
         if (request.json()) {
@@ -162,7 +162,7 @@ void add_topology(CLI::App& app, Command& command) {
       add(app, command, request, "crossings",
           "where fibres cross over and under each other and themselves in a view", run_crossings);
   add_view_options(*crossings, request);
-  add_radius_option(*crossings, request->radius);
+  add_read_options(*crossings, request->reading);
   add_threads_option(*crossings, request->threads, threads_help);
   add(app, command, request, "linking",
       "linking numbers of the fibres, each closed from its last point to its first; pairs that are "

@@ -81,7 +81,8 @@ TEST(ReadCsv, AcceptsAFileOfNoFibers) {
 
 TEST(ReadCsv, RefusesABadHeader) {
   const std::string rule =
-      ", expected the columns x, y, z and, where there are any, frame, fiber, radius (or a name "
+      ", expected the columns x, y, z and, where there are any, frame, fiber, radius, closed, "
+      "joint (or a name "
       "that "
       "ends in .hair)";
   EXPECT_EQ(refusal(""), "a.csv: is empty" + rule);
@@ -131,12 +132,13 @@ TEST(ReadCsv, RefusesBadValuesNamingLineAndReason) {
 }
 
 TEST(ReadCsv, RefusesAFiberOfOnePoint) {
+  const std::string rule =
+      "a fibre needs at least 2; skip_single_points, --skip-single-points, leaves such fibres out";
   EXPECT_EQ(refusal("fiber,x,y,z\na,0,0,0\nb,0,0,0\nb,1,0,0\n"),
-            "a.csv:2: fibre 'a' has only this point, a fibre needs at least 2");
+            "a.csv:2: fibre 'a' has only this point, " + rule);
   EXPECT_EQ(refusal("frame,fiber,x,y,z\n0,a,0,0,0\n0,a,1,0,0\n1,a,0,0,0\n2,a,0,0,0\n2,a,1,0,0\n"),
-            "a.csv:4: fibre 'a' has only this point, a fibre needs at least 2");
-  EXPECT_EQ(refusal("fiber,x,y,z\na,0,0,0\n"),
-            "a.csv:2: fibre 'a' has only this point, a fibre needs at least 2");
+            "a.csv:4: fibre 'a' has only this point, " + rule);
+  EXPECT_EQ(refusal("fiber,x,y,z\na,0,0,0\n"), "a.csv:2: fibre 'a' has only this point, " + rule);
 }
 
 TEST(ReadCsv, ReadsLinesAndValuesUpToTheirLongest) {

@@ -14,6 +14,8 @@ namespace {
 
 const FiberAssembly fibers({{1, 2, 3}, {4, 5, 6}}, {0, 2}, {0.5});
 
+const std::vector<std::string> one_frame_formats{"hair", "tck", "trk"};
+
 class FiberFileTest : public testing::Test {
  protected:
   std::string path(const std::string& name) const { return directory_.path(name); }
@@ -49,6 +51,19 @@ TEST_F(FiberFileTest, TheDefaultRadiusReachesBoth) {
   }
 }
 
+TEST_F(FiberFileTest, FormatsOfOneFrameReadWhatTheyWrite) {
+  for (const std::string& end : one_frame_formats) {
+    SCOPED_TRACE(end);
+    write_fibers(path("a." + end), {false, {{0, fibers}}});
+    const FiberAssembly again = read_fibers(path("a." + end)).frames.at(0).fibers;
+    EXPECT_EQ(again.points(), fibers.points());
+    EXPECT_EQ(again.radii(), end == "tck" ? std::vector<double>{0.0} : fibers.radii());
+    EXPECT_THROW(write_fibers(path("b." + end), {true, {{3, fibers}}}), std::invalid_argument);
+    EXPECT_THROW(write_fibers(path("b." + end), {false, {}}), std::invalid_argument);
+    EXPECT_FALSE(std::filesystem::exists(path("b." + end)));
+  }
+}
+
 TEST_F(FiberFileTest, ManyFramesGoIntoCsvOnly) {
   write_fibers(path("a.csv"), {true, {{3, fibers}, {5, fibers}}});
   EXPECT_EQ(read_fibers(path("a.csv")).frames.at(1).frame, 5);
@@ -74,16 +89,15 @@ TEST_F(FiberFileTest, NamesOfOtherFormatsAreRefused) {
   const auto writing = [&](const std::string& name) {
     return error([&] { write_fibers(path(name), {false, {{0, fibers}}}); });
   };
-  const std::string read = "; CSV and .hair are read, and .h5 by fiber_query_mpi";
+  const std::string read = "; CSV, .hair, .tck and .trk are read, and .h5 by fiber_query_mpi";
   const std::string written =
-      "; CSV, .hair and .pvd are written, and .h5 by fiber_query_mpi convert";
+      "; CSV, .hair, .pvd, .tck, .trk and .vtp are written, and .h5 by fiber_query_mpi convert";
   EXPECT_EQ(reading("a.h5"), path("a.h5") + ": is HDF5 by its name" + read);
   EXPECT_EQ(writing("a.h5"), "'" + path("a.h5") + "' is a name of HDF5" + written);
-  EXPECT_EQ(writing("A.VTP"), "'" + path("A.VTP") + "' is a name of VTK" + written);
+  EXPECT_EQ(writing("A.VTU"), "'" + path("A.VTU") + "' is a name of VTK" + written);
   EXPECT_EQ(reading("a.pvd"), path("a.pvd") + ": is a collection of VTK by its name" + read);
-  for (const std::string end :
-       {"hdf5", "vtkhdf", "vtp", "vtk", "npy", "npz", "tck", "trk", "swc", "ply", "obj", "json",
-        "yaml", "xlsx", "csv.gz", "mat", "abc", "usda", "bag"}) {
+  for (const std::string end : {"hdf5", "vtkhdf", "vtu", "npy", "trx", "ply", "obj", "json", "yaml",
+                                "xlsx", "csv.gz", "mat", "abc", "usda", "bag"}) {
     EXPECT_NE(reading("a." + end).find(" by its name; "), std::string::npos) << end;
     EXPECT_NE(writing("a." + end).find(" is a name of "), std::string::npos) << end;
     EXPECT_FALSE(std::filesystem::exists(path("a." + end)));

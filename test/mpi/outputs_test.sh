@@ -104,10 +104,24 @@ expect_refused "circle_a: cannot be written: too many links" fiber_query_mpi con
 mkfifo pipe
 expect_refused "--resume: what went to 'pipe', which is no file," fiber_query_mpi check bars.csv --out pipe --resume
 
+# ---- convert, to formats of other programs and back; what they have no place for is told
+run 2 fiber_query_mpi convert one.csv one.h5
+for end in tck trk; do
+  run 2 fiber_query_mpi convert one.h5 other.$end 2>told.txt
+  grep -q "other.$end: the format has no names" told.txt || fail "names are lost without a word: $end"
+  run 2 fiber_query_mpi convert other.$end back.csv
+  radius=$([ $end = tck ] && echo 0 || echo 0.1)
+  printf 'fiber,x,y,z,radius\n0,0,0,0,%s\n0,1,0,0,%s\n1,0,0,0.15,%s\n1,1,0,0.15,%s\n' \
+    "$radius" "$radius" "$radius" "$radius" >expected_back.csv
+  cmp back.csv expected_back.csv || fail "others come back from .$end"
+done
+grep -q "other.tck: the format has no radii" <(run 1 fiber_query_mpi convert one.h5 other.tck 2>&1) ||
+  fail "radii are lost without a word"
+
 # ---- names of other formats
-for end in npy vtp tck; do
+for end in npy vtu trx; do
   expect_refused "--out: 'found.$end' is a name of" fiber_query_mpi contacts bars.csv --out found.$end
-  expect_refused "OUT: 'found.$end' must end in .h5, .csv or .hair" fiber_query_mpi convert bars.csv found.$end
+  expect_refused "OUT: 'found.$end' must end in .h5, .csv, .hair" fiber_query_mpi convert bars.csv found.$end
   expect_refused "found.$end: is " fiber_query_mpi contacts found.$end
 done
 for command in "contacts bars.csv --format json --out found.csv" "contacts bars.csv --format csv --out found.json" \

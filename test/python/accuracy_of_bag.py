@@ -7,6 +7,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import unittest.mock
 
 import numpy as np
 
@@ -97,6 +98,13 @@ class AccuracyOfBag(unittest.TestCase):
         self.assertIn('cable.csv: 40 of 40 frames, 1 fibre, 39 segments, margin 50 mm', result.stdout)
         self.assertTrue(os.path.getsize(picture))
         self.assertIn('must be a number', self.refused(self.bag, '--topic', 'poses', '--margin', 'wide'))
+
+    def test_a_node_that_is_gone_is_told(self):
+        with unittest.mock.patch.dict(os.environ, ROS_MASTER_URI='http://127.0.0.1:9'):
+            result = self.run_script(self.bag, '--topic', 'poses', '--radius', '0.005', '--answers', '1', '--node',
+                                     '/proximity')
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn('no share of /proximity: no roscore answers', result.stderr)
 
     def test_what_cannot_be_measured(self):
         self.assertIn('no messages on pints, it has cloud (sensor_msgs/PointCloud2), marker (visualization_msgs/Marker), ',

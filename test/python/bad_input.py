@@ -251,7 +251,7 @@ class BadInput(unittest.TestCase):
             fp.write_frames(path, [fp.Fibers(TWO), fp.Fibers(TWO)])
             self.refuse(ValueError, 'holds 2 frames', lambda: fp.read(path))
             self.refuse(ValueError, 'times', lambda: fp.write_frames(path, [fp.Fibers(TWO)], [0, 1]))
-            for name in 'a.h5', 'a.vtp', 'a.npy':
+            for name in 'a.h5', 'a.vtu', 'a.npy':
                 other = os.path.join(folder, name)
                 self.refuse(ValueError, '.h5 by fiber_query_mpi convert', lambda other=other: fp.write(other, fp.Fibers(TWO)))
                 self.refuse(ValueError, 'a name of', lambda other=other: fp.write_frames(other, [fp.Fibers(TWO)]))

@@ -103,6 +103,30 @@ class Files(unittest.TestCase):
         fp.write(self.path('a.hair'), fibers)
         np.testing.assert_array_equal(fp.read(self.path('a.hair')).points, fibers.points.astype('f4'))
 
+    def test_formats_of_other_programs(self):
+        fibers = fp.Fibers(*support.random_fibers(np.random.default_rng(62), radii='fiber'))
+        for end in ('tck', 'trk'):
+            path = self.path('a.' + end)
+            with warnings.catch_warnings(record=True) as caught:
+                warnings.simplefilter('always')
+                fp.write(path, fibers)
+                again = fp.read(path, default_radius=0.25)
+            lost = [f'{path}: the format has no radii: fibres are only their axes'] if end == 'tck' else []
+            self.assertEqual([str(warning.message) for warning in caught], lost)
+            millimetres = (1000 * fibers.points).astype('f4').astype('f8')
+            np.testing.assert_array_equal(again.points, millimetres / 1000)
+            np.testing.assert_array_equal(again.offsets, fibers.offsets)
+            if end == 'tck':
+                np.testing.assert_array_equal(again.radii, 0.25)
+
+    def test_fibers_of_one_point(self):
+        with open(self.path('a.csv'), 'w', encoding='utf-8') as file:
+            file.write('fiber,x,y,z\na,0,0,0\nb,0,0,0\nb,1,0,0\n')
+        with self.assertRaisesRegex(ValueError, 'skip_single_points'):
+            fp.read(self.path('a.csv'))
+        with self.assertWarnsRegex(UserWarning, '1 fibre of fewer than two points left out'):
+            self.assertEqual(fp.read(self.path('a.csv'), skip_single_points=True).names, ['b'])
+
     def test_frames_come_back(self):
         rng = np.random.default_rng(61)
         frames = [(7 + i, fp.Fibers(*support.random_fibers(rng))) for i in range(3)]

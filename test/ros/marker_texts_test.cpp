@@ -180,6 +180,10 @@ TEST(Legend, TellsOfWhatIsShown) {
             (Texts{penetrating, "amber: within 20.0 mm", normals, nearest}));
   EXPECT_EQ(texts_of(legend_lines(options, false, HUGE_VAL)),
             (Texts{penetrating, "amber: apart", normals, nearest}));
+  options.certain_margin = 0.0;
+  EXPECT_EQ(texts_of(legend_lines(options, false, 0.0)),
+            (Texts{penetrating, "pale: possible, not certain", normals, nearest}));
+  options = {};
   options.show_nearest = false;
   EXPECT_EQ(texts_of(legend_lines(options, true, 0.0)),
             (Texts{penetrating, normals, "red to green: from objects, 0 to 100.0 mm"}));

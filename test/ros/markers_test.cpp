@@ -64,6 +64,20 @@ TEST_F(Markers, ContactsAreRedInPenetrationAndAmberWithinTheMargin) {
   EXPECT_DOUBLE_EQ(normals->points[1].x, normals->points[0].x);
 }
 
+TEST_F(Markers, ContactsThatAreOnlyPossibleArePaler) {
+  add_contact(-0.002);
+  add_contact(-0.002);
+  contacts_.contacts[0].upper = 0.001;
+  contacts_.contacts[1].upper = 0.003;
+  options_.certain_margin = 0.002;
+  build(parallel_fibers(2));
+  const Marker* spheres = find("contacts");
+  ASSERT_NE(spheres, nullptr);
+  ASSERT_EQ(spheres->colors.size(), 2U);
+  EXPECT_LT(spheres->colors[0].g, 0.3F);
+  EXPECT_GT(spheres->colors[1].g, 0.5F);
+}
+
 TEST_F(Markers, DiscsDoNotCoverFibersThatAreApart) {
   // Thin fibres of 2 mm beside a thick one of 20 mm.
   const FiberAssembly fibers({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0, 2, 0}, {1, 2, 0}},

@@ -17,6 +17,7 @@ fiber_proximity_gtest(markers_test
   LIBRARIES fiber_proximity_ros
 )
 fiber_proximity_gtest(conversions_test
+  ros/closed_fibers_test.cpp
   ros/conversions_test.cpp
   ros/kept_markers_test.cpp
   ros/marker_input_test.cpp
@@ -209,6 +210,15 @@ add_rostest_gtest(uncertainty_node_test
 target_link_libraries(uncertainty_node_test
   fiber_proximity_ros fiber_proximity_options test_support)
 add_dependencies(uncertainty_node_test proximity_node)
+
+add_rostest_gtest(latency_node_test
+  ros/latency.test
+  ros/latency_node_test.cpp
+  ros/main.cpp
+)
+target_link_libraries(latency_node_test
+  fiber_proximity_ros fiber_proximity_options test_support)
+add_dependencies(latency_node_test proximity_node)
 
 add_rostest_gtest(environment_node_test
   ros/environment_inputs.test

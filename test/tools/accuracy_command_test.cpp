@@ -25,6 +25,16 @@ TEST_F(Accuracy, EndsWithARecommendation) {
   EXPECT_NE(last.find("noise"), std::string::npos) << last;
 }
 
+TEST_F(Accuracy, SaysWhoseTheDoubtIs) {
+  const ProcessResult result =
+      query("accuracy " + cables() + " --seconds 600 --answers 25 --questions all --noise 0.002");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find("doubt about a gap: tracker 16 mm, latency of a frame "),
+            std::string::npos)
+      << result.out;
+  EXPECT_NE(result.out.find("tell the node: uncertainty: 0.008 [m]"), std::string::npos);
+}
+
 TEST_F(Accuracy, CsvHasARowForEachQuestionAndSetting) {
   const ProcessResult result =
       query("accuracy " + cables() + " --seconds 600 --answers 25 --format csv --noise 0.002");

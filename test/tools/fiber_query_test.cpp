@@ -222,6 +222,18 @@ TEST_F(FiberQuery, ReadsHairFiles) {
   EXPECT_TRUE(refused(query("contacts " + write("b.hair", "HAIR")), "b.hair: ends at byte 4"));
 }
 
+TEST_F(FiberQuery, SkipsFibersOfOnePoint) {
+  const std::string file =
+      write("single.csv", "fiber,x,y,z\na,9,9,9\nb,0,0,0\nb,1,0,0\nc,0,1,0\nc,1,1,0\n");
+  EXPECT_TRUE(refused(query("closest " + file), "single.csv:2: fibre 'a' has only this point"));
+  const ProcessResult found = query("closest " + file + " --skip-single-points");
+  EXPECT_EQ(found.exit_code, 0);
+  EXPECT_EQ(found.err, "fiber_query: " + file +
+                           ": 1 fibre of fewer than two points left out, as skip_single_points "
+                           "says\n");
+  EXPECT_EQ(lines(found.out).size(), 2U);
+}
+
 TEST_F(FiberQuery, FilesOfNothing) {
   const std::string bare = write("bare.csv", "fiber,x,y,z\n");
   const std::string framed = write("framed.csv", "frame,fiber,x,y,z\n");

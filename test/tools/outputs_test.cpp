@@ -64,8 +64,8 @@ TEST_F(Outputs, DevicesAreWrittenTo) {
 
 TEST_F(Outputs, NamesOfOtherFormatsAreRefused) {
   const std::string written =
-      "; CSV, .hair and .pvd are written, and .h5 by fiber_query_mpi convert";
-  for (const std::string end : {"h5", "vtp", "tck", "npy", "json"}) {
+      "; CSV, .hair, .pvd, .tck, .trk and .vtp are written, and .h5 by fiber_query_mpi convert";
+  for (const std::string end : {"h5", "vtu", "trx", "npy", "json"}) {
     const std::string out = path("out." + end);
     EXPECT_TRUE(refused(run_process(soup_to(out)), "'" + out + "' is a name of "));
     EXPECT_TRUE(refused(run_process(simulation(out)), written));
@@ -74,9 +74,13 @@ TEST_F(Outputs, NamesOfOtherFormatsAreRefused) {
     EXPECT_FALSE(std::filesystem::exists(out));
     EXPECT_TRUE(refused(query("contacts " + out), out + ": is "));
   }
+  EXPECT_TRUE(refused(run_process(simulation(path("out.tck"))),
+                      "a .tck file cannot hold this: it holds exactly 1 frame without a number, "
+                      "not frames with numbers"));
   EXPECT_FALSE(std::filesystem::exists(path("out.csv"))) << "before anything is written";
-  EXPECT_TRUE(refused(query("contacts " + path("a.h5")),
-                      ": is HDF5 by its name; CSV and .hair are read, and .h5 by fiber_query_mpi"));
+  EXPECT_TRUE(refused(
+      query("contacts " + path("a.h5")),
+      ": is HDF5 by its name; CSV, .hair, .tck and .trk are read, and .h5 by fiber_query_mpi"));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 fiber_proximity_gtest(tools_test
   accuracy/accuracy_picture_test.cpp
   accuracy/answer_errors_test.cpp
+  accuracy/doubt_sources_test.cpp
   accuracy/noise_test.cpp
   accuracy/recommendation_test.cpp
   accuracy/resampling_test.cpp

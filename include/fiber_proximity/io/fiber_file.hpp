@@ -73,31 +73,45 @@ struct FiberFile {
   std::vector<std::string> notes{};
 };
 
+/// How fibres are read.
+struct ReadOptions {
+  // Not explicit: whoever gives a number alone gives the radius.
+  ReadOptions(double radius = 0.0) : default_radius(radius) {}
+
+  double default_radius;  ///< [m] of all fibres if the file has no radii
+
+  /// Whether fibres of fewer than two points are left out, and FiberFile::notes tells how many
+  /// there were; else such a file is refused.
+  bool skip_single_points = false;
+};
+
 // ---- CSV
 
 /// Reads a fibre file: a header, then a row per point. Columns are found by their names, in any
 /// order and in capitals or not: `x`, `y`, `z` [m], and where there are any `frame`, a whole
-/// number, `fiber`, any text, and `radius` [m]. Others are left out, and FiberFile::notes names
-/// them; without `fiber` all rows of a frame are one fibre. The points of a fibre are the rows with
-/// its name, in their order, wherever they stand. Frames are in the file's order, or in that of
-/// their numbers where their rows are mixed; the fibres of each are in the order in which they
-/// first appear.
+/// number, `fiber`, any text, `radius` [m], `closed`, 1 in all rows of a closed fibre and 0 in
+/// those of an open one, and `joint`, a whole number that rows of one place share, negative or
+/// nothing elsewhere. Others are left out, and FiberFile::notes names them; without `fiber` all
+/// rows of a frame are one fibre. The points of a fibre are the rows with its name, in their order,
+/// wherever they stand. Frames are in the file's order, or in that of their numbers where their
+/// rows are mixed; the fibres of each are in the order in which they first appear.
 ///
 /// Values are separated by commas, semicolons, tabs or blanks, as the header is; those in quotes
 /// may hold anything but a line's end (RFC 4180). Blanks around values, blank lines, CRLF line ends
 /// and lines that begin with # are allowed; the header may be such a line. A line has at most
 /// 65 536 bytes, a value 4 096.
-/// @param default_radius [m] of all fibres if the file has no radius column
+/// @param options the default radius is that of a file without a radius column
 /// @throws FileError
-/// @throws std::invalid_argument for a bad default_radius
-FiberFile read_csv(const std::string& path, double default_radius = 0.0);
+/// @throws std::invalid_argument for a bad default radius
+FiberFile read_csv(const std::string& path, const ReadOptions& options = {});
 
 /// read_csv() from a stream; errors call it by `name`.
-FiberFile read_csv(std::istream& stream, const std::string& name, double default_radius = 0.0);
+FiberFile read_csv(std::istream& stream, const std::string& name, const ReadOptions& options = {});
 
 /// Writes a fibre file frame by frame, so that a long one never is in memory. The radius column is
-/// that of the point if there is one per point, else that of its fibre. All numbers read back as
-/// the same.
+/// that of the point if there is one per point, else that of its fibre. Where fibres of the first
+/// frame are closed or joined, there are the columns closed and joint. All numbers read back as the
+/// same.
 class CsvWriter {
  public:
   /// @param has_frames whether frames have numbers; without them the file holds exactly one
@@ -114,8 +128,11 @@ class CsvWriter {
   void finish();
 
  private:
+  void write_header(bool has_topology);
+
   const bool has_frames_;
   OutputFile file_;
+  std::optional<bool> has_topology_;  // as the header has it, once it is written
   std::set<std::int64_t> frames_written_;
   std::string rows_;
 };
@@ -135,16 +152,16 @@ void write_csv(const std::string& path, const FiberFile& file);
 
 /// Reads a .hair file as one frame without a number. The strands become fibres in the file's order;
 /// half of a thickness is a radius. Transparency and colour have no place in an assembly.
-/// @param default_radius [m] of all fibres if the file has neither a thickness array nor a default
-///        thickness other than 0
-/// @throws FileError naming the field and its byte; also for a strand of 0 segments, which would be
-///         a fibre of one point, and for bytes that the header does not account for. The header is
-///         compared with the size of the file before anything is allocated by it.
-/// @throws std::invalid_argument for a bad default_radius
-FiberFile read_hair(const std::string& path, double default_radius = 0.0);
+/// @param options the default radius is that of a file with neither a thickness array nor a default
+///        thickness other than 0; a strand of 0 segments is a fibre of one point
+/// @throws FileError naming the field and its byte; also for bytes that the header does not account
+///         for. The header is compared with the size of the file before anything is allocated by
+///         it.
+/// @throws std::invalid_argument for a bad default radius
+FiberFile read_hair(const std::string& path, const ReadOptions& options = {});
 
 /// read_hair() from a stream, which must be able to seek; errors call it by `name`.
-FiberFile read_hair(std::istream& stream, const std::string& name, double default_radius = 0.0);
+FiberFile read_hair(std::istream& stream, const std::string& name, const ReadOptions& options = {});
 
 /// Writes a .hair file. Coordinates and radii are rounded to single precision, all that the format
 /// has. The arrays of segments and thickness are written only if one value does not serve all.
@@ -184,27 +201,27 @@ class PvdWriter {
 /// Writes fibres as a VTK file of poly data, in XML, to a stream, which is not checked for errors.
 void write_vtp(std::ostream& stream, const FiberAssembly& fibers);
 
-// ---- any format: the name decides, in capitals or not. One that ends in .hair is a HAIR file, one
-// that is written and ends in .pvd is for ParaView. A name of another format that is known, as .h5,
-// .vtp or .npy, is refused; every other one is CSV.
+// ---- any format: the end of the name decides, in capitals or not. A name of another format that
+// is known, as .json or .npy, is refused; one that means no format is CSV.
 
-/// Reads a fibre file of either format.
-/// @param default_radius [m] of all fibres if the file has no radii
+/// Reads a fibre file of any format: .csv, .hair, and what fiber_proximity/io/fiber_formats.hpp
+/// tells of. HDF5 is read over ranks only (fiber_proximity/mpi/distributed_files.hpp).
 /// @throws FileError
-/// @throws std::invalid_argument for a bad default_radius
-FiberFile read_fibers(const std::string& path, double default_radius = 0.0);
+/// @throws std::invalid_argument for a bad default radius
+FiberFile read_fibers(const std::string& path, const ReadOptions& options = {});
 
-/// Writes a fibre file of any format frame by frame.
+/// Writes a fibre file of any format frame by frame: .csv, .pvd, and of one frame .hair and those
+/// that fiber_proximity/io/fiber_formats.hpp writes.
 class FiberWriter {
  public:
-  /// @param has_frames whether frames have numbers, which a HAIR file cannot hold; without them the
-  ///        file holds exactly one
+  /// @param has_frames whether frames have numbers, which only .csv and .pvd files can hold;
+  ///        without them the file holds exactly one
   /// @throws std::invalid_argument for a name of a format that is not written
   /// @throws FileError
   FiberWriter(const std::string& path, bool has_frames);
 
   /// @param time of the frame [s], which only .pvd files hold; none: the frame's number
-  /// @throws std::invalid_argument for a frame that the file cannot hold; see CsvWriter, write_hair
+  /// @throws std::invalid_argument for a frame that the file cannot hold
   /// @throws FileError
   void write(const FiberFrame& frame, std::optional<double> time = std::nullopt);
 
@@ -213,11 +230,13 @@ class FiberWriter {
   void finish();
 
  private:
+  std::string end_of_name() const;
+
   const std::string path_;
   const bool has_frames_;
-  bool wrote_hair_ = false;
+  bool wrote_frame_ = false;
   std::optional<CsvWriter> csv_;
-  std::optional<PvdWriter> pvd_;  // neither for a HAIR file
+  std::optional<PvdWriter> pvd_;  // neither for a format of one frame
 };
 
 /// Writes all of a fibre file; see FiberWriter.

@@ -2,6 +2,7 @@
 
 #include <ros/console.h>
 
+#include <algorithm>
 #include <cassert>
 #include <sstream>
 #include <stdexcept>
@@ -94,6 +95,11 @@ void Input::accept(const ros::Time& stamp) {
     assert(!placed_.empty());
   }
   assert(placed_.front()->stamp == stamp);
+  if (staleness_ != Staleness::NONE) {
+    speeds_.forget();
+  } else if (timing_.bounds_latency) {
+    speeds_.take(*current_, *placed_.front());
+  }
   current_ = std::move(placed_.front());
   placed_.pop_front();
   has_fibers_ = true;
@@ -167,6 +173,11 @@ std::optional<Unknown> Input::unknown() const {
   if (is_fresh()) {
     unknown.since = current_->stamp;
     unknown.why = current_->missing;
+    if (unknown.why.empty() && timing_.bounds_latency && !speeds_.speeds()) {
+      unknown.why =
+          "how fast its fibres move is not known before a second message of the same fibres "
+          "(latency_compensation)";
+    }
     return unknown.why.empty() ? std::nullopt : std::make_optional(unknown);
   }
   if (!budget.problem().empty()) {
@@ -180,6 +191,15 @@ std::optional<Unknown> Input::unknown() const {
   unknown.is_logged = staleness_ != Staleness::NONE;
   unknown.why = unknown.is_logged ? stale_reason_ : absence();
   return unknown;
+}
+
+double Input::uncertainty(std::size_t fiber, const ros::Time& now) const {
+  if (!timing_.bounds_latency || !speeds_.speeds()) {
+    return options_.uncertainty;  // without speeds the input counts as unknown
+  }
+  const double age = std::max(0.0, (now - current_->stamp).toSec());
+  return std::min(options_.uncertainty + age * (*speeds_.speeds())[fiber],
+                  fiber::FiberAssembly::max_coordinate);
 }
 
 /// Tells why there have been no fibres yet.

@@ -10,6 +10,7 @@
 
 #include "fiber_proximity/InputStatistics.h"
 #include "src/ros/inputs/fiber_message.hpp"
+#include "src/ros/inputs/fiber_speeds.hpp"
 #include "src/ros/inputs/fixed_frame.hpp"
 #include "src/ros/inputs/input_budget.hpp"
 #include "src/ros/inputs/input_source.hpp"
@@ -77,6 +78,9 @@ class Input {
   const ros::Time& stamp() const { return current_->stamp; }
 
   const InputOptions& options() const { return options_; }
+
+  /// [m] How far a true point of this fibre may be from the told one at this time.
+  double uncertainty(std::size_t fiber, const ros::Time& now) const;
   fiber_proximity::InputStatistics statistics(const ros::Time& now) const;
 
   /// Why the fibres are stale; empty if they are not.
@@ -107,6 +111,7 @@ class Input {
   FiberTrial trial_;
   std::deque<FiberMessagePtr> placed_;  // in the fixed frame, to be accepted
   FiberMessagePtr current_ = std::make_shared<FiberMessage>();
+  FiberSpeeds speeds_;  // where latency makes fibres uncertain
   bool has_fibers_ = false;
   bool was_left_out_ = false;
   Staleness staleness_ = Staleness::NONE;

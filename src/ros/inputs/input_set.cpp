@@ -23,6 +23,7 @@ InputSet::InputSet(ros::NodeHandle node, const std::vector<InputOptions>& inputs
       last_time_(ros::Time::now()) {
   for (const InputOptions& options : inputs) {
     inputs_.push_back(std::make_unique<Input>(options, timing, worker_));
+    can_be_uncertain_ = can_be_uncertain_ || timing.bounds_latency || options.uncertainty > 0.0;
     Input& input = *inputs_.back();
     const auto receiver = [this, &input](const ReceivedMessage& message) {
       receive(input, message);
@@ -166,25 +167,28 @@ void InputSet::merge() {
     }
   }
   merged_.merge(fresh);
-  merge_uncertainties();
   header_.frame_id = frame_.name();
   header_.stamp = fresh.empty() ? last_time_ : merged_.message()->stamp;
   work_time_ += stopwatch.seconds();
 }
 
-void InputSet::merge_uncertainties() {
-  uncertainties_.clear();
+std::vector<double> InputSet::uncertainties() const {
+  std::vector<double> uncertainties;
+  if (!can_be_uncertain_) {
+    return uncertainties;
+  }
   bool is_any_uncertain = false;
   for (const std::unique_ptr<Input>& input : inputs_) {
-    if (input->is_fresh()) {
-      const double uncertainty = input->options().uncertainty;
-      is_any_uncertain = is_any_uncertain || uncertainty > 0.0;
-      uncertainties_.insert(uncertainties_.end(), input->fibers().fiber_count(), uncertainty);
+    const std::size_t count = input->is_fresh() ? input->fibers().fiber_count() : 0;
+    for (std::size_t fiber = 0; fiber < count; ++fiber) {
+      uncertainties.push_back(input->uncertainty(fiber, last_time_));
+      is_any_uncertain = is_any_uncertain || uncertainties.back() > 0.0;
     }
   }
   if (!is_any_uncertain) {
-    uncertainties_.clear();
+    uncertainties.clear();
   }
+  return uncertainties;
 }
 
 }  // namespace fiber_proximity_ros

@@ -60,8 +60,8 @@ class InputSet {
   const std::vector<std::string>& names() const { return merged_.message()->names; }
 
   /// [m] By fibre of those that fibers() has returned last, how far its true points may be from the
-  /// told ones; empty where all are told to be exact.
-  const std::vector<double>& uncertainties() const { return uncertainties_; }
+  /// told ones at the time of the last update; empty where all are told to be exact.
+  std::vector<double> uncertainties() const;
 
   /// Fixed frame, and the newest stamp among the fibres; without any, the time of the last update.
   const std_msgs::Header& header() const { return header_; }
@@ -78,7 +78,6 @@ class InputSet {
   void watch_time();
   bool accept_placed();
   void merge();
-  void merge_uncertainties();
 
   FixedFrame frame_;
   const fiber::QueryOptions& answered_;
@@ -87,10 +86,10 @@ class InputSet {
   std::vector<Unknown> left_out_;
   std::optional<Synchronizer> synchronizer_;  // if the inputs are synchronised
   ros::Time last_time_;
+  bool can_be_uncertain_ = false;
   bool was_reset_ = false;
   bool merged_is_old_ = false;
   MergedFibers merged_;
-  std::vector<double> uncertainties_;
   std_msgs::Header header_;
   double work_time_ = 0.0;
   // Last: their job and their callbacks use all of the above.

@@ -32,6 +32,8 @@ struct InputOptions {
   /// [m] Every true point is at most this far from the one that the message tells.
   double uncertainty{};
 
+  bool close_rings{};  ///< fibres that end where they begin are closed
+
   MissingPoints missing_points = MissingPoints::REFUSE;
 
   bool required = true;  ///< answers without its fibres are incomplete
@@ -61,6 +63,9 @@ struct InputTiming {
 
   /// [s] most by which stamps that belong together differ; more than a period of a usual camera
   double synchronize_slop{};
+
+  /// True: what fibres may have moved since their stamps makes them uncertain.
+  bool bounds_latency{};
 
   /// Messages of one input that wait, for their transforms or for those of the other inputs.
   /// Without synchronisation one keeps its turn, and the newest stands behind it.

@@ -29,7 +29,10 @@ void MarkerOutput::publish(const DetectedScene& subject, CrossingsOutput& crossi
   is_requested_ = false;
   last_time_ = ros::SteadyTime::now();
   InputSet& inputs = subject.scene.fibers;
-  const MarkerOptions options = marker_options(config);
+  MarkerOptions options = marker_options(config);
+  if (!inputs.uncertainties().empty()) {
+    options.certain_margin = subject.query.margin;
+  }
   // What was detected before is not to be seen any more when there is nothing around.
   const bool is_alone = !subject.scene.environment.is_used();
   const Detection& found = subject.detector.detection();

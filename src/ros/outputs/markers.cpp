@@ -19,8 +19,9 @@ constexpr double text_height = 0.035;  // of the scene
 
 std_msgs::ColorRGBA color_of(std::uint32_t fiber) { return color(fiber_color(fiber)); }
 
-std_msgs::ColorRGBA contact_color(const fiber::Contact& contact) {
-  return color(contact.distance < 0.0 ? palette::penetrating : palette::within_margin);
+std_msgs::ColorRGBA contact_color(const fiber::Contact& contact, double certain_margin) {
+  const Rgb& kind = contact.distance < 0.0 ? palette::penetrating : palette::within_margin;
+  return color(contact.upper > certain_margin ? mix(kind, palette::possible, 0.6) : kind);
 }
 
 Vector3d middle_of(const fiber::Contact& contact) {
@@ -80,7 +81,7 @@ void draw_lines(const fiber::FiberAssembly& fibers, double width, MarkerCanvas& 
 
 /// A SPHERE_LIST has one size for all: sizes are rounded down, by a sixth at most.
 void draw_contacts(const fiber::FiberAssembly& fibers, const std::vector<fiber::Contact>& contacts,
-                   double largest, MarkerCanvas& canvas) {
+                   double largest, double certain_margin, MarkerCanvas& canvas) {
   constexpr double steps_per_halving = 4.0;
   std::map<int, std::vector<const fiber::Contact*>> by_size;
   for (const fiber::Contact& contact : contacts) {
@@ -93,19 +94,20 @@ void draw_contacts(const fiber::FiberAssembly& fibers, const std::vector<fiber::
         largest * std::exp2(-steps / steps_per_halving);
     for (const fiber::Contact* contact : alike) {
       marker.points.push_back(to_message(middle_of(*contact)));
-      marker.colors.push_back(contact_color(*contact));
+      marker.colors.push_back(contact_color(*contact, certain_margin));
     }
   }
 }
 
 void draw_normals(const fiber::FiberAssembly& fibers, const std::vector<fiber::Contact>& contacts,
-                  double largest, MarkerCanvas& canvas) {
+                  double largest, double certain_margin, MarkerCanvas& canvas) {
   Marker& marker = canvas.add("normals", Marker::LINE_LIST);
   marker.scale.x = 0.08 * largest;
   for (const fiber::Contact& contact : contacts) {
     const Vector3d start = middle_of(contact);
     const double length = 1.2 * disc_size(fibers, contact, largest);
-    append_line(start, start + length * contact.normal, contact_color(contact), marker);
+    append_line(start, start + length * contact.normal, contact_color(contact, certain_margin),
+                marker);
   }
 }
 
@@ -230,6 +232,9 @@ std::vector<LegendLine> legend_lines(const MarkerOptions& options, bool has_dist
                                                    ? "amber: within " + distance_text(margin)
                                                    : "amber: apart"});
     }
+    if (std::isfinite(options.certain_margin)) {
+      lines.push_back({palette::possible, "pale: possible, not certain"});
+    }
     lines.push_back({palette::normal, "lines: normals of contacts"});
   }
   if (options.show_passed) {
@@ -290,8 +295,8 @@ void MarkerBuilder::build(const std_msgs::Header& header, const Drawing& drawing
     draw_tubes(fibers, canvas);
   }
   if (options.show_contacts && !contacts.empty()) {
-    draw_contacts(fibers, contacts, thickness, canvas);
-    draw_normals(fibers, contacts, thickness, canvas);
+    draw_contacts(fibers, contacts, thickness, options.certain_margin, canvas);
+    draw_normals(fibers, contacts, thickness, options.certain_margin, canvas);
   }
   if (options.show_passed && passed != nullptr && !passed->empty()) {
     draw_passed(*passed, 1.5 * thickness, canvas);

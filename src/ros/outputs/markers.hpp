@@ -4,6 +4,7 @@
 #include <visualization_msgs/MarkerArray.h>
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,8 @@ struct MarkerOptions {
   bool show_passed = false;  ///< contacts that came and went, if there are any to show
   bool show_objects = true;
   double reach = 0.3;          ///< [m] objects whose boxes are further from all fibres are left out
+  /// [m] Contacts whose true distance may be larger are possible only, and paler.
+  double certain_margin = std::numeric_limits<double>::infinity();
   double free_distance = 0.1;  ///< [m] from here on the distance of an object is green; above 0
 };
 
@@ -75,7 +78,8 @@ void draw_crossings(const fiber::FiberAssembly& fibers, const CrossingDrawing& d
 /// | `fibers`       | fibre index | tubes of the exact radius (TRIANGLE_LIST); above             |
 /// |                |             | `max_tube_segments` in all one LINE_LIST of id 0            |
 /// | `contacts`     | n           | SPHERE_LIST midway between the surfaces; red in penetration, |
-/// |                |             | amber within the margin; one of each size                    |
+/// |                |             | amber within the margin, paler where that is not certain;    |
+/// |                |             | one of each size                                             |
 /// | `normals`      | 0           | LINE_LIST from there along the normal a→b                    |
 /// | `passed`       | 0           | SPHERE_LIST where contacts came and went, of late; cyan      |
 /// | `nearest`      | 0           | LINE_LIST between the nearest points of the closest pair     |

@@ -18,6 +18,7 @@ inline Rgb mix(const Rgb& a, const Rgb& b, double part) {
 namespace palette {
 constexpr Rgb penetrating{0.95F, 0.15F, 0.12F};
 constexpr Rgb within_margin{1.0F, 0.70F, 0.10F};
+constexpr Rgb possible{1.0F, 0.95F, 0.9F};
 constexpr Rgb normal{1.0F, 0.82F, 0.5F};
 constexpr Rgb incomplete{1.0F, 0.25F, 0.2F};
 constexpr Rgb passed{0.10F, 0.95F, 1.0F};

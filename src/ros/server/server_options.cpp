@@ -129,6 +129,9 @@ ServerOptions read_server_options(const ros::NodeHandle& node,
   parameters.read("max_stamp_ahead", options.fibers.timing.max_stamp_ahead);
   parameters.read("synchronize", options.fibers.timing.synchronize);
   parameters.read("synchronize_slop", options.fibers.timing.synchronize_slop);
+  std::string latency;
+  parameters.read("latency_compensation", latency);
+  options.fibers.timing.bounds_latency = latency == "bounds";
   parameters.read("marker_rate", options.marker_rate);
   parameters.read("heartbeat", options.heartbeat);
   // Read by diagnostic_updater, which keeps silent about what is none.
