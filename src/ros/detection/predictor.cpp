@@ -211,14 +211,8 @@ void Predictor::find_contacts(const fiber::QueryOptions& options,
   }
   before_ = scene_.fibers.fibers();  // its own: the engine refers to it until the next time
   after_ = before_;
-<<<<<<< HEAD
-  after_.update_points(points_);
-=======
   // Points of a joint are extrapolated one by one, and may part.
   after_.update_points(points_, fiber::JointCheck::LEFT_OUT);
-  engine_->update_motion(before_, after_);
-  const bool has_objects = scene_.environment.is_used();
->>>>>>> main
   fiber::MotionOptions motion = fiber::motion_options(options, options_.tolerance);
   find_contacts_of_fibers(motion, objects.has_value(), message, budget);
   if (objects) {
@@ -276,7 +270,7 @@ void Predictor::find_contacts_with_objects(const fiber::MotionOptions& asked,
     for (std::size_t i = 0; i < points_.size(); ++i) {
       points_[i] = before_.points()[i] + part * (points_[i] - before_.points()[i]);
     }
-    after_.update_points(points_);
+    after_.update_points(points_, fiber::JointCheck::LEFT_OUT);
   }
   budget.ask(motion, [&](const fiber::MotionOptions& in_time) {
     const fiber::AllowedPairs allowed = scene_.environment.allowed(scene_.fibers.names());
