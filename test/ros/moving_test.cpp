@@ -207,7 +207,7 @@ TEST_F(MovingTest, ACableThatFollowsALinkMeetsItWhereThatStops) {
   constexpr double stop = 2.0;   // [s]
   const double ahead = gap + margin + radius + 0.03;
   cable_ = [](double time) { return Vector3d(speed * time, 0, 0); };
-  tool_ = [ahead](double time) { return at({speed * std::min(time, stop) + ahead, 0, 0}); };
+  tool_ = [ahead](double time) { return at({speed * (time < stop ? time : stop) + ahead, 0, 0}); };
   settled();
   while (time() < stop - 1e-6) {
     const TimeToContact* const told = answer();
