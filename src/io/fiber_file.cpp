@@ -136,6 +136,10 @@ FiberFile read_fibers(const std::string& path, const ReadOptions& options) {
       return read_tck(stream, path, options);
     case FileFormat::TRK:
       return read_trk(stream, path, options);
+    case FileFormat::VTK:
+      return read_vtk(stream, path, options);
+    case FileFormat::VTP:
+      return read_vtp(stream, path, options);
     default:
       return read_csv(stream, path, options);
   }

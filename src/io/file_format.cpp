@@ -23,7 +23,7 @@ struct KnownFormat {
 };
 
 constexpr const char* what_is_read =
-    "CSV, .hair, .tck and .trk are read, and .h5 by fiber_query_mpi";
+    "CSV, .hair, .tck, .trk, .vtk and .vtp are read, and .h5 by fiber_query_mpi";
 constexpr const char* what_is_written =
     "CSV, .hair, .pvd, .tck, .trk and .vtp are written, and .h5 by fiber_query_mpi convert";
 
@@ -38,9 +38,10 @@ const std::vector<KnownFormat>& known_formats() {
       {FileFormat::TRK, "TrackVis's tracks", {".trk"}, {"TRACK\0"sv}, true, true},
       {FileFormat::HDF5, "HDF5", {".h5", ".hdf5", ".hdf", ".vtkhdf"}, {"\x89HDF"}},
       {FileFormat::PVD, "a collection of VTK", {".pvd"}, {}, false, true},
-      {FileFormat::VTP, "VTK", {".vtp"}, {}, false, true},
+      {FileFormat::VTP, "VTK", {".vtp"}, {"<?xml", "<VTKFile"}, true, true},
+      {FileFormat::VTK, "VTK", {".vtk"}, {"# vtk"}, true, false},
       {FileFormat::JSON, "JSON", {".json", ".jsonl"}, {"{", "["}},
-      {FileFormat::OTHER, "VTK", {".vtk", ".vtu"}, {"# vtk", "<?xml", "<VTKFile"}},
+      {FileFormat::OTHER, "VTK", {".vtu"}, {}},
       {FileFormat::OTHER, "NumPy", {".npy", ".npz"}, {"\x93NUMPY"}},
       {FileFormat::OTHER, "tractography", {".trx"}, {}},
       {FileFormat::OTHER, "SWC", {".swc"}, {}},

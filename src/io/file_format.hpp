@@ -14,6 +14,7 @@ enum class FileFormat {
   HAIR,  ///< one frame, as all of other programs
   TCK,
   TRK,
+  VTK,    ///< of poly data, read only
   VTP,    ///< of ParaView
   PVD,    ///< for ParaView, written only
   HDF5,   ///< by the tools that run over ranks

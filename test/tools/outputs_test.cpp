@@ -80,7 +80,7 @@ TEST_F(Outputs, NamesOfOtherFormatsAreRefused) {
   EXPECT_FALSE(std::filesystem::exists(path("out.csv"))) << "before anything is written";
   EXPECT_TRUE(refused(
       query("contacts " + path("a.h5")),
-      ": is HDF5 by its name; CSV, .hair, .tck and .trk are read, and .h5 by fiber_query_mpi"));
+      ": is HDF5 by its name; CSV, .hair, .tck, .trk, .vtk and .vtp are read, and .h5 by fiber_query_mpi"));
 }
 
 }  // namespace

@@ -41,4 +41,19 @@ FiberFile read_trk(std::istream& stream, const std::string& name, const ReadOpti
 /// @throws std::invalid_argument as write_tck()
 void write_trk(std::ostream& stream, const FiberFile& file);
 
+// ---- VTK's poly data, whose lines are the fibres. It states no unit of length: numbers are taken
+// as metres. An array of the points named radius or TubeRadius, in capitals or not, holds radii;
+// notes name all other arrays, and count cells that are no lines and points that are in none.
+
+/// Reads a .vtp file, VTK's XML: arrays as text, base64 or appended, compressed by zlib or not,
+/// little-endian or big-endian, of all pieces. write_vtp() writes one.
+/// @throws FileError also for points without any line
+/// @throws std::invalid_argument for a bad default radius
+FiberFile read_vtp(std::istream& stream, const std::string& name, const ReadOptions& options = {});
+
+/// Reads a .vtk file, VTK's legacy format, of versions 1 to 5, ASCII or BINARY.
+/// @throws FileError also for points without any line
+/// @throws std::invalid_argument for a bad default radius
+FiberFile read_vtk(std::istream& stream, const std::string& name, const ReadOptions& options = {});
+
 }  // namespace fiber
