@@ -24,6 +24,7 @@ add_library(fiber_proximity_ros SHARED
   src/ros/environment/owed_changes.cpp
   src/ros/environment/robot_links.cpp
   src/ros/environment/waiting_changes.cpp
+  src/ros/inputs/closed_fibers.cpp
   src/ros/inputs/fiber_speeds.cpp
   src/ros/inputs/fixed_frame.cpp
   src/ros/inputs/input.cpp

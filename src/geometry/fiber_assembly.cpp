@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cassert>
+#include <limits>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
+
+#include "src/geometry/fiber_graph.hpp"
 
 namespace fiber {
 namespace {
@@ -65,12 +68,13 @@ void check_points(const std::vector<Eigen::Vector3d>& points,
   check_points([&points](std::size_t i) -> const Eigen::Vector3d& { return points[i]; }, offsets);
 }
 
-void check_new_points(const std::vector<Eigen::Vector3d>& points, std::size_t point_count,
-                      const std::vector<std::uint32_t>& offsets) {
-  if (points.size() != point_count) {
-    refuse("update with ", points.size(), " points for an assembly of ", point_count);
+void check_new_points(const std::vector<Eigen::Vector3d>& points, const FiberAssembly& fibers) {
+  const bool are_stored = points.size() == fibers.point_count();
+  if (!are_stored && points.size() != fibers.given_offsets().back()) {
+    refuse("update with ", points.size(), " points for an assembly of ",
+           fibers.given_offsets().back());
   }
-  check_points(points, offsets);
+  check_points(points, are_stored ? fibers.offsets() : fibers.given_offsets());
 }
 
 /// How so many radii are given; throws where they are none of these.
@@ -140,22 +144,79 @@ void check_segments(const std::vector<Eigen::Vector3d>& points,
 
 FiberAssembly::FiberAssembly(std::vector<Eigen::Vector3d> points,
                              std::vector<std::uint32_t> offsets, std::vector<double> radii)
+    : FiberAssembly(std::move(points), std::move(offsets), std::move(radii), {}) {}
+
+FiberAssembly::FiberAssembly(std::vector<Eigen::Vector3d> points,
+                             std::vector<std::uint32_t> offsets, std::vector<double> radii,
+                             const FiberTopology& topology)
     : points_(std::move(points)), offsets_(std::move(offsets)), radii_(std::move(radii)) {
   check_offsets(offsets_, points_.size());
   check_points(points_, offsets_);
   radius_per_ = check_radii(radii_, offsets_, points_.size());
+  graph_ = FiberGraph::make(offsets_, topology);
+  if (graph_ != nullptr) {
+    offsets_ = graph_->offsets();
+    graph_->repeat_first_points(points_);
+    if (radius_per_ == RadiusPer::POINT) {
+      graph_->repeat_first_points(radii_);
+    }
+    check_offsets(offsets_, points_.size());  // there are more of them now
+  }
   segment_radii_ = expand_radii(radii_, radius_per_, offsets_, points_.size());
   largest_radius_ = radii_.empty() ? 0.0 : *std::max_element(radii_.begin(), radii_.end());
+  require_joints_meet(points_);
 }
 
-void FiberAssembly::update_points(const std::vector<Eigen::Vector3d>& points) {
-  check_new_points(points, points_.size(), offsets_);
-  std::copy(points.begin(), points.end(), points_.begin());
+void FiberAssembly::require_joints_meet(const std::vector<Eigen::Vector3d>& points) const {
+  if (graph_ != nullptr) {
+    graph_->require_joints_meet(*this, points);
+  }
+}
+
+void FiberAssembly::update_points(const std::vector<Eigen::Vector3d>& points, JointCheck check) {
+  check_new_points(points, *this);
+  if (check == JointCheck::REQUIRED) {
+    require_joints_meet(points);
+  }
+  if (points.size() == points_.size()) {
+    std::copy(points.begin(), points.end(), points_.begin());
+  } else {
+    points_.assign(points.begin(), points.end());
+    graph_->repeat_first_points(points_);
+  }
 }
 
 void FiberAssembly::exchange_points(std::vector<Eigen::Vector3d>& points) {
-  check_new_points(points, points_.size(), offsets_);
+  check_new_points(points, *this);
+  require_joints_meet(points);
   points_.swap(points);
+  if (points_.size() != offsets_.back()) {
+    graph_->repeat_first_points(points_);
+  }
+}
+
+FiberTopology FiberAssembly::topology() const {
+  return graph_ == nullptr ? FiberTopology() : graph_->topology();
+}
+
+bool FiberAssembly::is_closed(std::size_t fiber) const {
+  return graph_ != nullptr && graph_->is_closed(static_cast<std::uint32_t>(fiber));
+}
+
+std::vector<Eigen::Vector3d> FiberAssembly::given_points() const {
+  return graph_ == nullptr ? points_ : graph_->given(points_);
+}
+
+const std::vector<std::uint32_t>& FiberAssembly::given_offsets() const {
+  return graph_ == nullptr ? offsets_ : graph_->given_offsets();
+}
+
+std::vector<double> FiberAssembly::given_radii() const {
+  return graph_ == nullptr || radius_per_ != RadiusPer::POINT ? radii() : graph_->given(radii());
+}
+
+bool FiberAssembly::has_topology_of(const FiberAssembly& other) const {
+  return offsets_ == other.offsets_ && join_alike(graph_.get(), other.graph_.get());
 }
 
 void FiberAssembly::transform(const Eigen::Isometry3d& pose) {
@@ -186,6 +247,7 @@ void FiberAssembly::exchange_segments(std::vector<Eigen::Vector3d>& points,
 }
 
 void FiberAssembly::become_segments() {
+  graph_ = nullptr;
   radii_.clear();
   if (segment_radii_.size() == 1) {
     radii_.swap(segment_radii_);
@@ -221,21 +283,34 @@ void require_coordinates(const char* name, const Eigen::Vector3d& vector) {
 FiberAssembly select_fibers(const FiberAssembly& fibers,
                             const std::vector<std::uint32_t>& selection) {
   const std::vector<double>& all_radii = fibers.radii();
+  const FiberTopology all = fibers.topology();
+  FiberTopology topology;
   std::vector<std::uint32_t> offsets{0};
   offsets.reserve(selection.size() + 1);
   for (const std::uint32_t fiber : selection) {
     assert(fiber < fibers.fiber_count());
-    offsets.push_back(offsets.back() + fibers.offsets()[fiber + 1] - fibers.offsets()[fiber]);
+    const std::vector<std::uint32_t>& given = fibers.given_offsets();
+    offsets.push_back(offsets.back() + given[fiber + 1] - given[fiber]);
+    if (!all.closed.empty()) {
+      topology.closed.push_back(all.closed[fiber]);
+    }
+    if (!all.joints.empty()) {
+      topology.joints.insert(topology.joints.end(), all.joints.begin() + given[fiber],
+                             all.joints.begin() + given[fiber + 1]);
+    }
+  }
+  if (fibers.graph() != nullptr) {
+    topology.joint_tolerance = std::numeric_limits<double>::infinity();
   }
   std::vector<Eigen::Vector3d> points;
   points.reserve(offsets.back());
   std::vector<double> radii;
-  for (const std::uint32_t fiber : selection) {
-    const std::uint32_t begin = fibers.offsets()[fiber];
-    const std::uint32_t end = fibers.offsets()[fiber + 1];
+  for (std::size_t i = 0; i < selection.size(); ++i) {
+    const std::uint32_t begin = fibers.offsets()[selection[i]];
+    const std::uint32_t end = begin + (offsets[i + 1] - offsets[i]);
     points.insert(points.end(), fibers.points().begin() + begin, fibers.points().begin() + end);
     if (fibers.radius_per() == RadiusPer::FIBER) {
-      radii.push_back(all_radii[fiber]);
+      radii.push_back(all_radii[selection[i]]);
     } else if (fibers.radius_per() == RadiusPer::POINT) {
       radii.insert(radii.end(), all_radii.begin() + begin, all_radii.begin() + end);
     }
@@ -243,7 +318,7 @@ FiberAssembly select_fibers(const FiberAssembly& fibers,
   if (radii.empty()) {
     radii.push_back(all_radii.front());
   }
-  return {std::move(points), std::move(offsets), std::move(radii)};
+  return {std::move(points), std::move(offsets), std::move(radii), topology};
 }
 
 }  // namespace fiber

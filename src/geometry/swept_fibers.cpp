@@ -18,6 +18,11 @@ void require_same_topology(const FiberAssembly& before, const FiberAssembly& aft
             << " after; a motion needs the same fibres with the same numbers of points";
     throw std::invalid_argument(message.str());
   }
+  if (!before.has_topology_of(after)) {
+    throw std::invalid_argument(
+        "the fibres change their topology: others are closed or joined after than before; a motion "
+        "needs the same");
+  }
 }
 
 Eigen::Vector3d drift_of(const FiberAssembly& before, const FiberAssembly& after) {

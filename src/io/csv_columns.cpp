@@ -15,8 +15,8 @@ std::string in_small_letters(std::string_view text) {
 
 /// @return COLUMNS for what means nothing here
 CsvColumns::Column column_called(const std::string& name) {
-  constexpr std::array<std::string_view, CsvColumns::COLUMNS> names{"frame", "fiber", "x",
-                                                                    "y",     "z",     "radius"};
+  constexpr std::array<std::string_view, CsvColumns::COLUMNS> names{
+      "frame", "fiber", "x", "y", "z", "radius", "closed", "joint"};
   std::size_t column = 0;
   while (column < names.size() && names[column] != name) {
     ++column;

@@ -11,14 +11,14 @@ namespace fiber {
 
 /// Where the columns of a file of points stand, as its header says.
 struct CsvColumns {
-  enum Column { FRAME, FIBER, X, Y, Z, RADIUS, COLUMNS };
+  enum Column { FRAME, FIBER, X, Y, Z, RADIUS, CLOSED, JOINT, COLUMNS };
 
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
 
   /// Names the expected columns, as an error does.
   static constexpr const char* rule =
-      "expected the columns x, y, z and, where there are any, frame, fiber, radius (or a name that "
-      "ends in .hair)";
+      "expected the columns x, y, z and, where there are any, frame, fiber, radius, closed, joint "
+      "(or a name that ends in .hair)";
 
   char separator = ',';
   std::size_t count = 0;                    ///< of all columns

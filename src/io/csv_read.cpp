@@ -68,6 +68,11 @@ class CsvReader {
                        quote(builder_.scattered()) +
                        ": without a column frame they are put together");
     }
+    if (const auto& lonely = builder_.lonely_joint()) {
+      notes_.push_back((file.has_frames ? "frame " + std::to_string(lonely->first) + ": " : "") +
+                       "joint " + std::to_string(lonely->second) +
+                       " is the number of one point alone: it joins nothing");
+    }
     if (builder_.skipped() > 0) {
       notes_.push_back(note_of_skipped(builder_.skipped()));
     }
@@ -186,6 +191,29 @@ class CsvReader {
         refuse("radius is " + quote(text) + ", " + FiberAssembly::radius_rule);
       }
     }
+    if (columns_->has(CsvColumns::CLOSED)) {
+      rows_->closed.push_back(read_closed(field(CsvColumns::CLOSED)));
+    }
+    if (columns_->has(CsvColumns::JOINT)) {
+      rows_->joints.push_back(read_joint(field(CsvColumns::JOINT)));
+    }
+  }
+
+  std::uint8_t read_closed(std::string_view text) const {
+    if (text != "0" && text != "1") {
+      refuse("closed is " + quote(text) + ", expected 0 or 1");
+    }
+    return text == "1" ? 1 : 0;
+  }
+
+  /// Nothing stands for a point that is not joined.
+  std::int32_t read_joint(std::string_view text) const {
+    const auto joint =
+        text.empty() ? std::optional<std::int32_t>(-1) : parse_number<std::int32_t>(text);
+    if (!joint) {
+      refuse("joint is " + quote(text) + ", expected a whole number below 2147483648, or nothing");
+    }
+    return *joint;
   }
 
   /// Also of numbers that a program writes as 3.000e+00.

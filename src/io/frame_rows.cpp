@@ -11,6 +11,26 @@ namespace {
 
 constexpr std::uint32_t no_fiber = UINT32_MAX;
 
+/// The items of some rows, in this order; none where there are none.
+template <class Item>
+void take_items(const std::vector<std::size_t>& taken, std::vector<Item>& items) {
+  std::vector<Item> found;
+  if (!items.empty()) {
+    found.reserve(taken.size());
+    for (const std::size_t row : taken) {
+      found.push_back(items[row]);
+    }
+  }
+  items = std::move(found);
+}
+
+void take_rows(const std::vector<std::size_t>& taken, FrameRows& rows) {
+  take_items(taken, rows.points);
+  take_items(taken, rows.radii);
+  take_items(taken, rows.closed);
+  take_items(taken, rows.joints);
+}
+
 std::size_t end_of_run(const FrameRows& rows, std::size_t run) {
   return run + 1 < rows.runs.size() ? rows.runs[run + 1].begin : rows.points.size();
 }
@@ -59,8 +79,7 @@ void FrameBuilder::forget_fibers() {
 
 /// Where rows of a fibre do not stand one after another.
 void FrameBuilder::bring_together(FrameRows& rows) {
-  std::vector<Eigen::Vector3d> points(rows.points.size());
-  std::vector<double> radii(rows.radii.size());
+  std::vector<std::size_t> rows_of_places(rows.points.size());
   std::vector<std::uint32_t> places = offsets_;
   for (std::size_t run = 0; run < rows.runs.size(); ++run) {
     const std::uint32_t fiber = fibers_[rows.runs[run].name];
@@ -69,14 +88,10 @@ void FrameBuilder::bring_together(FrameRows& rows) {
       scattered_ = names_[rows.runs[run].name];
     }
     for (std::size_t i = rows.runs[run].begin; i < end_of_run(rows, run); ++i, ++place) {
-      points[place] = rows.points[i];
-      if (!radii.empty()) {
-        radii[place] = rows.radii[i];
-      }
+      rows_of_places[place] = i;
     }
   }
-  rows.points = std::move(points);
-  rows.radii = std::move(radii);
+  take_rows(rows_of_places, rows);
 }
 
 void FrameBuilder::require_segments(const FrameRows& rows, const std::string& file) const {
@@ -93,8 +108,8 @@ void FrameBuilder::require_segments(const FrameRows& rows, const std::string& fi
 /// Leaves out the rows of fibres that have one point only.
 /// @return whether there were any
 bool FrameBuilder::skip_single_points(FrameRows& rows) {
-  FrameRows kept;
-  kept.number = rows.number;
+  std::vector<std::size_t> kept;
+  std::vector<FrameRows::Run> kept_runs;
   std::size_t skipped = 0;
   for (std::size_t run = 0; run < rows.runs.size(); ++run) {
     const std::uint32_t fiber = fibers_[rows.runs[run].name];
@@ -102,20 +117,40 @@ bool FrameBuilder::skip_single_points(FrameRows& rows) {
       ++skipped;
       continue;
     }
-    FrameRows::Run& kept_run = kept.runs.emplace_back(rows.runs[run]);
-    kept_run.begin = kept.points.size();
+    kept_runs.emplace_back(rows.runs[run]).begin = kept.size();
     for (std::size_t i = rows.runs[run].begin; i < end_of_run(rows, run); ++i) {
-      kept.points.push_back(rows.points[i]);
-      if (!rows.radii.empty()) {
-        kept.radii.push_back(rows.radii[i]);
-      }
+      kept.push_back(i);
     }
   }
   if (skipped > 0) {
-    rows = std::move(kept);
+    take_rows(kept, rows);
+    rows.runs = std::move(kept_runs);
     skipped_ += skipped;
   }
   return skipped > 0;
+}
+
+/// What is closed and joined.
+/// @param rows brought together
+FiberTopology FrameBuilder::topology_of(const FrameRows& rows, const std::string& file) {
+  FiberTopology topology;
+  topology.joints = rows.joints;
+  for (std::size_t fiber = 0; !rows.closed.empty() && fiber + 1 < offsets_.size(); ++fiber) {
+    const std::uint8_t closed = rows.closed[offsets_[fiber]];
+    for (std::uint32_t row = offsets_[fiber]; row < offsets_[fiber + 1]; ++row) {
+      if (rows.closed[row] != closed) {
+        throw FileError(file, "fibre " + quote(names_[names_in_frame_[fiber]]) +
+                                  " is closed in some of its rows and open in others, closed must "
+                                  "be the same in all");
+      }
+    }
+    topology.closed.push_back(closed);
+  }
+  const std::vector<LonelyJoint> lonely = lonely_joints(topology.joints);
+  if (!lonely_joint_ && !lonely.empty()) {
+    lonely_joint_ = {rows.number, lonely.front().joint};
+  }
+  return topology;
 }
 
 FiberNames FrameBuilder::names_of_fibers() {
@@ -146,9 +181,15 @@ FiberFrame FrameBuilder::build(FrameRows rows, const std::string& file,
   if (rows.radii.empty()) {
     rows.radii.push_back(options.default_radius);
   }
-  return {rows.number,
-          FiberAssembly(std::move(rows.points), offsets_, shared_if_equal(std::move(rows.radii))),
-          names_of_fibers()};
+  const FiberTopology topology = topology_of(rows, file);
+  try {
+    return {rows.number,
+            FiberAssembly(std::move(rows.points), offsets_, shared_if_equal(std::move(rows.radii)),
+                          topology),
+            names_of_fibers()};
+  } catch (const std::invalid_argument& error) {
+    throw FileError(file, "frame " + std::to_string(rows.number) + ": " + error.what());
+  }
 }
 
 }  // namespace fiber

@@ -4,9 +4,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "fiber_proximity/io/fiber_file.hpp"
@@ -24,7 +26,9 @@ struct FrameRows {
 
   std::int64_t number = 0;
   std::vector<Eigen::Vector3d> points;
-  std::vector<double> radii;  ///< of the points [m], or none
+  std::vector<double> radii;         ///< of the points [m], or none
+  std::vector<std::uint8_t> closed;  ///< whether the point is of a closed fibre, or none
+  std::vector<std::int32_t> joints;  ///< of the points, as FiberTopology has them, or none
   std::vector<Run> runs;
 };
 
@@ -36,8 +40,15 @@ class FrameBuilder {
   std::uint32_t number_of(std::string_view name);
 
   /// @param file what errors call it
-  /// @throws FileError for a fibre of one point that is not to be skipped
+  /// @throws FileError for a fibre of one point that is not to be skipped, for one that is closed
+  /// in
+  ///         some of its rows only, and for joints whose points do not meet
   FiberFrame build(FrameRows rows, const std::string& file, const ReadOptions& options);
+
+  /// A joint of one point alone, the first of all frames, and its frame.
+  const std::optional<std::pair<std::int64_t, std::int32_t>>& lonely_joint() const {
+    return lonely_joint_;
+  }
 
   /// How many fibres of one point were left out, of all frames.
   std::size_t skipped() const { return skipped_; }
@@ -51,6 +62,7 @@ class FrameBuilder {
   void bring_together(FrameRows& rows);
   bool skip_single_points(FrameRows& rows);
   void require_segments(const FrameRows& rows, const std::string& file) const;
+  FiberTopology topology_of(const FrameRows& rows, const std::string& file);
   FiberNames names_of_fibers();
 
   std::deque<std::string> names_;  // by number
@@ -62,6 +74,7 @@ class FrameBuilder {
 
   std::string scattered_;
   std::size_t skipped_ = 0;
+  std::optional<std::pair<std::int64_t, std::int32_t>> lonely_joint_;
 
   // These are of the frame before.
   std::vector<std::uint32_t> names_before_;

@@ -44,6 +44,10 @@ std::vector<std::string> losses(FileFormat format, const FiberFrame& frame) {
   if (has_radii(frame.fibers) && !has_places_of_radii(format)) {
     lost.emplace_back("the format has no radii: fibres are only their axes");
   }
+  if (frame.fibers.graph() != nullptr && format != FileFormat::VTP) {
+    lost.emplace_back(
+        "the format has no closed or joined fibres: rings are chains that end where they begin");
+  }
   return lost;
 }
 
@@ -70,9 +74,8 @@ float single_precision(const char* end, double value, const char* what, std::siz
 }
 
 bool has_radii(const FiberAssembly& fibers) {
-  return fibers.fiber_count() > 0 &&
-         std::any_of(fibers.radii().begin(), fibers.radii().end(),
-                     [](double radius) { return radius != 0.0; });
+  return fibers.fiber_count() > 0 && std::any_of(fibers.radii().begin(), fibers.radii().end(),
+                                                 [](double radius) { return radius != 0.0; });
 }
 
 }  // namespace fiber

@@ -5,7 +5,26 @@
 #include <limits>
 #include <string>
 
+#include "src/geometry/fiber_graph.hpp"
+
 namespace fiber {
+
+namespace {
+
+/// Says which fibre is closed or joined, if one is: ranks do not know of joints.
+std::string error_of_joints(const FiberAssembly& parts) {
+  if (parts.graph() == nullptr) {
+    return "";
+  }
+  const FiberGraph::JointPoint& first = parts.graph()->joint_points().front();
+  return "part " + std::to_string(first.fiber) + ", point " +
+         std::to_string(first.point - parts.offsets()[first.fiber]) +
+         (parts.is_closed(first.fiber) ? ": the fibre is closed" : ": the point is joined") +
+         "; the ranks of MPI take open fibres that are not joined, an engine of one process takes "
+         "all";
+}
+
+}  // namespace
 
 void OwnedFibers::take_runs(const Communicator& ranks) {
   std::vector<FiberRun> runs = routes_.send_runs(ranks);
@@ -16,6 +35,8 @@ void OwnedFibers::take_runs(const Communicator& ranks) {
 void OwnedFibers::take(const Communicator& ranks, const FiberAssembly& parts,
                        const FiberAssembly* after, const std::vector<FiberPart>& names,
                        const RankLoad& load) {
+  ranks.throw_on_all(error_of_joints(parts));
+  ranks.throw_on_all(after == nullptr ? "" : error_of_joints(*after));
   const bool is_same = ranks.all(has_fibers_ && routes_.is_of(parts, names));
   has_fibers_ = false;
   ranks.throw_on_all(names.size() == parts.fiber_count()

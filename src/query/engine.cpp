@@ -6,6 +6,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "src/geometry/fiber_graph.hpp"
 #include "src/geometry/swept_fibers.hpp"
 #include "src/query/contact_evaluator.hpp"
 #include "src/query/idle_memory.hpp"
@@ -99,7 +100,9 @@ ProximityEngine::~ProximityEngine() = default;
 /// behind.
 template <class Update>
 void ProximityEngine::update_from(const FiberAssembly& fibers, const Update& update) {
-  const bool same_topology = has_hierarchy_ && offsets_ == fibers.offsets();
+  // Candidates that are kept depend on what is joined, too.
+  const bool same_topology = has_hierarchy_ && offsets_ == fibers.offsets() &&
+                             join_alike(graph_.get(), fibers.graph().get());
   fibers_ = nullptr;
   has_hierarchy_ = false;
   if (motion_ != nullptr) {
@@ -108,6 +111,7 @@ void ProximityEngine::update_from(const FiberAssembly& fibers, const Update& upd
   update(same_topology);
   if (!same_topology) {
     offsets_ = fibers.offsets();
+    graph_ = fibers.graph();
   }
   has_hierarchy_ = true;
 }

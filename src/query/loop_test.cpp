@@ -1,13 +1,16 @@
 #include "fiber_proximity/query/for_engines/loop_test.hpp"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <memory>
 
+#include "src/geometry/fiber_graph.hpp"
 #include "src/geometry/norm.hpp"
 #include "src/query/loop_chain.hpp"
 #include "src/query/loop_rule.hpp"
+#include "src/query/segment_ways.hpp"
 
 namespace fiber {
 namespace {
@@ -62,6 +65,7 @@ LoopTest::~LoopTest() = default;
 
 void LoopTest::reset(const FiberAssembly& fibers) {
   fibers_ = &fibers;
+  graph_ = fibers.graph().get();
   if (slots_.size() != fibers.fiber_count()) {
     slots_ = std::vector<Slot>(fibers.fiber_count());
   }
@@ -99,30 +103,32 @@ const LoopTest::Chain& LoopTest::chain(std::uint32_t fiber) const {
   return *slot.chain;
 }
 
-/// Whether a point between the segments is further from the place than the limit [m]. As many
+/// Whether one of these points of a fibre is further from the place than the limit [m]. As many
 /// points are left out each time as it takes at least to get there, or as are in a box that is not
 /// further: a fibre may stay near one place for a million points.
-bool LoopTest::leaves(const LoopPlace& place, PointPair pair, double limit,
+bool LoopTest::leaves(const LoopPlace& place, PointRange points_asked, double limit,
                       std::uint64_t& loop_steps) const {
   const LoopReach reach(place, limit);
   const std::vector<Vector3d>& points = fibers_->points();
-  const bool is_long = pair.b - pair.a > short_walk;
-  const Chain* const along = is_long ? &chain(fibers_->segment_id(pair.a).fiber) : nullptr;
+  const std::uint32_t last = points_asked.end - 1;
+  const bool is_long = points_asked.end - points_asked.begin > short_walk;
+  const Chain* const along =
+      is_long ? &chain(fibers_->segment_id(points_asked.begin).fiber) : nullptr;
   const double step = is_long ? reach.scale() * along->step : 0.0;
   const auto is_within = [&](const Eigen::AlignedBox3d& box) { return reach.holds(box); };
-  for (std::uint32_t k = pair.a + 1; k <= pair.b; ++k) {
+  for (std::uint32_t k = points_asked.begin; k <= last; ++k) {
     ++loop_steps;
     const double squared = reach.scaled_way_to(points[k]).squaredNorm();
     if (reach.is_beyond(squared)) {
       return true;
     }
     if (is_long) {
-      if (const std::uint32_t count = along->boxes.count_within(k, pair.b, is_within)) {
+      if (const std::uint32_t count = along->boxes.count_within(k, last, is_within)) {
         k += count - 1;
         continue;
       }
       const double rest = (1.0 - 0x1p-40) * reach.scaled_limit() - std::sqrt(squared);
-      if (rest >= step * (pair.b - k)) {
+      if (rest >= step * (last - k)) {
         return false;
       }
       k += rest > 0.0 ? static_cast<std::uint32_t>(rest / step) : 0;
@@ -133,14 +139,77 @@ bool LoopTest::leaves(const LoopPlace& place, PointPair pair, double limit,
 
 bool LoopTest::makes_loop(PointPair pair, const SegmentDistance& nearest,
                           std::uint64_t& loop_steps) const {
+  if (graph_ == nullptr) {
+    return fiber_makes_loop(pair, nearest, loop_steps);
+  }
+  return (!are_of_one_fiber(pair) || fiber_makes_loop(pair, nearest, loop_steps)) &&
+         all_ways_make_loops(pair, nearest, loop_steps);
+}
+
+/// Whether the way along their fibre makes a loop between these segments.
+bool LoopTest::fiber_makes_loop(PointPair pair, const SegmentDistance& nearest,
+                                std::uint64_t& loop_steps) const {
   if (pair.b - pair.a > short_walk && rules_out(pair.a, pair.b)) {
     return false;
   }
+  const PointRange between{pair.a + 1, pair.b + 1};
   return makes_loop_by(fibers_->capsule(pair.a), fibers_->capsule(pair.b), nearest,
                        [&](int /*question*/, const LoopPlace& x, const LoopPlace& y, double limit) {
-                         return leaves(x, pair, limit, loop_steps) ||
-                                leaves(y, pair, limit, loop_steps);
+                         return leaves(x, between, limit, loop_steps) ||
+                                leaves(y, between, limit, loop_steps);
                        });
+}
+
+bool LoopTest::are_joined_by_graph(PointPair pair) const {
+  return graph_->are_joined(fibers_->segment_id(pair.a).fiber, fibers_->segment_id(pair.b).fiber);
+}
+
+/// Whether each way through joints makes a loop. A way makes none if it is passable for all
+/// questions that the rule asks of those with its outer ends.
+bool LoopTest::all_ways_make_loops(PointPair pair, const SegmentDistance& nearest,
+                                   std::uint64_t& loop_steps) const {
+  struct Question {
+    LoopPlace x;
+    LoopPlace y;
+    double limit;
+  };
+  const Capsule a = fibers_->capsule(pair.a);
+  const Capsule b = fibers_->capsule(pair.b);
+  std::array<Question, loop_question_count> questions;
+  std::size_t count = 0;
+  const auto note = [&](int question, const LoopPlace& x, const LoopPlace& y, double limit) {
+    if (question == 0) {
+      return true;  // it would only spare the others
+    }
+    questions[count++] = {x, y, limit};
+    return false;
+  };
+  const auto passes = [&](std::uint32_t first, std::uint32_t last) {
+    for (std::size_t i = 0; i < count; ++i) {
+      if (leaves(questions[i].x, {first, last + 1}, questions[i].limit, loop_steps) ||
+          leaves(questions[i].y, {first, last + 1}, questions[i].limit, loop_steps)) {
+        return false;
+      }
+    }
+    return true;
+  };
+  const SegmentWays ways(*graph_, pair);
+  // The one about the nearest places is the same for all ways.
+  note(1, place_on(a, nearest.s), place_on(b, nearest.t), LoopLimit(a, b)(nearest.distance));
+  if (!ways.is_passable(WayEnds(), passes)) {
+    return true;
+  }
+  for (const bool leaves_by_last : {true, false}) {
+    for (const bool arrives_by_last : {false, true}) {
+      count = 0;
+      makes_loop_by(a, b, nearest, note, {!leaves_by_last, !arrives_by_last});
+      if (ways.is_passable({!leaves_by_last, leaves_by_last, !arrives_by_last, arrives_by_last},
+                           passes)) {
+        return false;
+      }
+    }
+  }
+  return true;
 }
 
 bool LoopTest::rules_out(std::uint32_t first, std::uint32_t last) const {

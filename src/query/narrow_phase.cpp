@@ -5,6 +5,7 @@
 
 #include "fiber_proximity/geometry/segment_distance.hpp"
 #include "src/geometry/norm.hpp"
+#include "src/query/graph_neighbours.hpp"
 
 namespace fiber {
 namespace {
@@ -80,6 +81,7 @@ NarrowPhase::NarrowPhase(const FiberAssembly& fibers, const QueryOptions& option
   if (neighbour_skip_length_ > 0.0) {
     arc_length_ = arc_lengths(fibers);
   }
+  index_decides_ = arc_length_.empty() && fibers.graph() == nullptr;
 }
 
 NarrowPhase::NarrowPhase(const FiberAssembly& shape, const FiberAssembly& fibers,
@@ -91,15 +93,18 @@ NarrowPhase::NarrowPhase(const FiberAssembly& shape, const FiberAssembly& fibers
       neighbour_skip_(0),
       neighbour_skip_length_(0.0) {}
 
-bool NarrowPhase::is_neighbour_of_same_fiber(PointPair pair) const {
+bool NarrowPhase::is_neighbour(PointPair pair) const {
   const bool near_by_index = pair.b - pair.a <= neighbour_skip_;
   const bool near_by_length =
       !arc_length_.empty() &&
       arc_length_[pair.b] - arc_length_[pair.a + 1] < neighbour_skip_length_;
-  if (!near_by_index && !near_by_length) {
-    return false;
+  if ((near_by_index || near_by_length) && is_of_one_fiber(pair)) {
+    return true;
   }
-  return is_of_one_fiber(pair);
+  return a_.graph() != nullptr &&
+         (are_near_by_count(a_, pair, neighbour_skip_) ||
+          (!arc_length_.empty() &&
+           are_near_by_length(a_, arc_length_, pair, neighbour_skip_length_)));
 }
 
 PairDistance NarrowPhase::distance(PointPair pair) const {

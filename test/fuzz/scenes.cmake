@@ -40,7 +40,7 @@ set(shapes
   src/environment/world.cpp
 )
 sources_in(queries environment geometry hierarchy query)
-list(REMOVE_ITEM queries ${shapes} src/geometry/fiber_assembly.cpp)
+list(REMOVE_ITEM queries ${shapes} src/geometry/fiber_assembly.cpp src/geometry/fiber_graph.cpp)
 list(FILTER queries EXCLUDE REGEX "_engines?.cpp|engine_factory|candidate_cache")  # see engine.cpp
 unwatched_library(fiber_queries ${queries})
 target_sources(fiber_queries PRIVATE engine.cpp)

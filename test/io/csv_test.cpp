@@ -81,7 +81,8 @@ TEST(ReadCsv, AcceptsAFileOfNoFibers) {
 
 TEST(ReadCsv, RefusesABadHeader) {
   const std::string rule =
-      ", expected the columns x, y, z and, where there are any, frame, fiber, radius (or a name "
+      ", expected the columns x, y, z and, where there are any, frame, fiber, radius, closed, "
+      "joint (or a name "
       "that "
       "ends in .hair)";
   EXPECT_EQ(refusal(""), "a.csv: is empty" + rule);

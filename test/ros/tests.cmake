@@ -17,6 +17,7 @@ fiber_proximity_gtest(markers_test
   LIBRARIES fiber_proximity_ros
 )
 fiber_proximity_gtest(conversions_test
+  ros/closed_fibers_test.cpp
   ros/conversions_test.cpp
   ros/kept_markers_test.cpp
   ros/marker_input_test.cpp

@@ -4,9 +4,11 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "fiber_proximity/export.hpp"
+#include "fiber_proximity/geometry/fiber_topology.hpp"
 
 namespace FIBER_PROXIMITY_EXPORT fiber {
 
@@ -43,12 +45,24 @@ enum class RadiusPer {
   POINT      ///< one for each point, or each segment at its first point
 };
 
-/// Many fibres, each a chain of points with a radius.
+class FiberGraph;
+
+/// Whether points that move are asked again if those of a joint meet.
+enum class JointCheck {
+  REQUIRED,  ///< those that were measured
+  LEFT_OUT   ///< those that are computed from others, which did meet
+};
+
+/// Many fibres, each a chain of points with a radius; a graph of chains where points are joined.
 ///
 /// Fibre f owns points offsets[f] .. offsets[f+1]-1. Consecutive points of a fibre make a segment,
 /// a capped cylinder; the library addresses a segment by the index of its first point. Where the
 /// radii of its two points differ, the segment counts as a capsule of the larger one, so a conical
 /// fibre is enclosed, never cut.
+///
+/// A closed fibre is stored with its first point again behind its last one, which all that is told
+/// of points here counts, except where they are called given. So the segment that starts at point p
+/// always ends at point p + 1, and the closing segment is the last one of its fibre.
 ///
 /// The data are validated once, on the way in; everything behind this class may rely on them:
 /// finite coordinates of magnitude up to `max_coordinate`, radii in [0, max_coordinate], at least
@@ -76,10 +90,23 @@ class FiberAssembly {
   FiberAssembly(std::vector<Eigen::Vector3d> points, std::vector<std::uint32_t> offsets,
                 std::vector<double> radii);
 
-  /// Moves the points without changing which fibre owns which, and without allocating.
-  /// @throws std::invalid_argument for another number of points or a bad coordinate; the assembly
-  ///         is unchanged then
-  void update_points(const std::vector<Eigen::Vector3d>& points);
+  /// Fibres of which some are closed or joined.
+  /// @param points  [m] as given: first points of closed fibres once
+  /// @param offsets fibre count + 1 values, from 0 to the number of points given
+  /// @param radii   [m] one for all fibres, one per fibre, or one per point given
+  /// @throws std::invalid_argument also for a closed fibre of less than three points, and for
+  ///         points of a joint that do not meet
+  FiberAssembly(std::vector<Eigen::Vector3d> points, std::vector<std::uint32_t> offsets,
+                std::vector<double> radii, const FiberTopology& topology);
+
+  /// Moves the points without changing which fibre owns which, nor what is joined, and without
+  /// allocating.
+  /// @param points [m] as given, or as stored
+  /// @throws std::invalid_argument for another number of points, a bad coordinate, a joint whose
+  ///         points do not meet, or a closed fibre whose first point is repeated elsewhere; the
+  ///         assembly is unchanged then
+  void update_points(const std::vector<Eigen::Vector3d>& points,
+                     JointCheck check = JointCheck::REQUIRED);
 
   /// update_points() without a copy: takes these points and leaves those it had.
   void exchange_points(std::vector<Eigen::Vector3d>& points);
@@ -90,8 +117,9 @@ class FiberAssembly {
   ///         then
   void transform(const Eigen::Isometry3d& pose);
 
-  /// Makes it other fibres, in the memory it has, with one radius for all, or one for each segment
-  /// [m]: that of its first point. The last point of a fibre has one as well then, which must be 0.
+  /// Makes it other fibres, open and not joined, in the memory it has, with one radius for all, or
+  /// one for each segment [m]: that of its first point. The last point of a fibre has one as well
+  /// then, which must be 0.
   /// @throws std::invalid_argument as the constructor; the assembly is unchanged then
   void assign_segments(const std::vector<Eigen::Vector3d>& points,
                        const std::vector<std::uint32_t>& offsets,
@@ -115,6 +143,24 @@ class FiberAssembly {
 
   /// How radii() are given.
   RadiusPer radius_per() const { return radius_per_; }
+
+  /// What is joined; null where nothing is. For engines.
+  const std::shared_ptr<const FiberGraph>& graph() const { return graph_; }
+
+  /// What is joined, as it was given; where nothing is, empty.
+  FiberTopology topology() const;
+
+  /// Whether the fibre's last segment ends at its first point.
+  bool is_closed(std::size_t fiber) const;
+
+  /// The points, offsets and radii that topology() is of, which make the same assembly: those that
+  /// are stored, but first points of closed fibres once.
+  std::vector<Eigen::Vector3d> given_points() const;
+  const std::vector<std::uint32_t>& given_offsets() const;
+  std::vector<double> given_radii() const;
+
+  /// Whether both have the same fibres of the same numbers of points, closed and joined alike.
+  bool has_topology_of(const FiberAssembly& other) const;
 
   /// Radius at a point of a fibre, as it was given [m]: its own, that of its fibre, or that of all.
   /// @param fiber the point's fibre, below fiber_count()
@@ -149,6 +195,7 @@ class FiberAssembly {
 
  private:
   void become_segments();
+  void require_joints_meet(const std::vector<Eigen::Vector3d>& points) const;
 
   std::vector<Eigen::Vector3d> points_;
   std::vector<std::uint32_t> offsets_{0};
@@ -157,6 +204,7 @@ class FiberAssembly {
   // By first point; empty when one radius serves all, so that the common case costs no memory.
   std::vector<double> segment_radii_;
   double largest_radius_ = 0.0;
+  std::shared_ptr<const FiberGraph> graph_;  // none for chains
 };
 
 /// @throws std::invalid_argument naming the vector, its first coordinate that is not valid, and
@@ -164,7 +212,8 @@ class FiberAssembly {
 ///         allowed
 void require_coordinates(const char* name, const Eigen::Vector3d& vector);
 
-/// Some of the fibres, with their radii, in this order.
+/// Some of the fibres, with their radii, in this order; joined where they were, with no
+/// joint_tolerance any more.
 /// @param selection indices below the number of fibres
 FiberAssembly select_fibers(const FiberAssembly& fibers,
                             const std::vector<std::uint32_t>& selection);

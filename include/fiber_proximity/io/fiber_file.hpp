@@ -89,11 +89,12 @@ struct ReadOptions {
 
 /// Reads a fibre file: a header, then a row per point. Columns are found by their names, in any
 /// order and in capitals or not: `x`, `y`, `z` [m], and where there are any `frame`, a whole
-/// number, `fiber`, any text, and `radius` [m]. Others are left out, and FiberFile::notes names
-/// them; without `fiber` all rows of a frame are one fibre. The points of a fibre are the rows with
-/// its name, in their order, wherever they stand. Frames are in the file's order, or in that of
-/// their numbers where their rows are mixed; the fibres of each are in the order in which they
-/// first appear.
+/// number, `fiber`, any text, `radius` [m], `closed`, 1 in all rows of a closed fibre and 0 in
+/// those of an open one, and `joint`, a whole number that rows of one place share, negative or
+/// nothing elsewhere. Others are left out, and FiberFile::notes names them; without `fiber` all
+/// rows of a frame are one fibre. The points of a fibre are the rows with its name, in their order,
+/// wherever they stand. Frames are in the file's order, or in that of their numbers where their
+/// rows are mixed; the fibres of each are in the order in which they first appear.
 ///
 /// Values are separated by commas, semicolons, tabs or blanks, as the header is; those in quotes
 /// may hold anything but a line's end (RFC 4180). Blanks around values, blank lines, CRLF line ends
@@ -108,8 +109,9 @@ FiberFile read_csv(const std::string& path, const ReadOptions& options = {});
 FiberFile read_csv(std::istream& stream, const std::string& name, const ReadOptions& options = {});
 
 /// Writes a fibre file frame by frame, so that a long one never is in memory. The radius column is
-/// that of the point if there is one per point, else that of its fibre. All numbers read back as
-/// the same.
+/// that of the point if there is one per point, else that of its fibre. Where fibres of the first
+/// frame are closed or joined, there are the columns closed and joint. All numbers read back as the
+/// same.
 class CsvWriter {
  public:
   /// @param has_frames whether frames have numbers; without them the file holds exactly one
@@ -126,8 +128,11 @@ class CsvWriter {
   void finish();
 
  private:
+  void write_header(bool has_topology);
+
   const bool has_frames_;
   OutputFile file_;
+  std::optional<bool> has_topology_;  // as the header has it, once it is written
   std::set<std::int64_t> frames_written_;
   std::string rows_;
 };

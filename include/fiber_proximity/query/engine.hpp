@@ -141,8 +141,9 @@ class ProximityEngine {
 
   const FiberAssembly* fibers_ = nullptr;
   bool has_hierarchy_ = false;
-  std::vector<std::uint32_t> offsets_;  // of the fibres that it is of
-  std::unique_ptr<Motion> motion_;      // none until there is one
+  std::vector<std::uint32_t> offsets_;       // of the fibres that it is of
+  std::shared_ptr<const FiberGraph> graph_;  // of these, if they have one
+  std::unique_ptr<Motion> motion_;           // none until there is one
 };
 
 /// The engine of this name: run_tree, brute_force, or one of a registered family. The paper's are

@@ -38,17 +38,19 @@ struct PairOptions {
 
   Pairing pairing = Pairing::ALL;
 
-  // Which segments of one fibre are pairs. With none of the next two set: those that the fibre
-  // makes a loop between (LoopTest), whatever the margin and however finely the fibre is sampled.
+  // Which segments of one fibre, or of fibres that are joined, are pairs. With none of the next two
+  // set: those that a loop is between (LoopTest), whatever the margin and however finely the fibre
+  // is sampled.
 
   /// Segments of one fibre whose indices differ by at most this are no pair; the rule of loops does
-  /// not apply. 1 leaves out the neighbours that share a point; 0 reports even those. If only
-  /// neighbour_skip_length is set, this counts as 1.
+  /// not apply. 1 leaves out the neighbours that share a point; 0 reports even those. Where fibres
+  /// are closed or joined it counts along the shortest way: 1 for segments that share a joint. If
+  /// only neighbour_skip_length is set, this counts as 1.
   std::optional<std::uint32_t> neighbour_skip;
 
   /// [m] Segments of one fibre with less than this arc length between them are no pair; >= 0, 0 for
-  /// no such limit; the rule of loops does not apply. If only neighbour_skip is set, this counts
-  /// as 0.
+  /// no such limit; the rule of loops does not apply. Where fibres are closed or joined it is the
+  /// length of the shortest way. If only neighbour_skip is set, this counts as 0.
   std::optional<double> neighbour_skip_length;
 
   /// Whether self-contacts need a loop.

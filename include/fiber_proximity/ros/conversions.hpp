@@ -29,6 +29,7 @@ struct FiberBuffer {
   std::vector<double>
       radii;  ///< [m] one, one per fibre or one per point; empty where there are none
   std::vector<std::string> names;  ///< one per fibre; empty where the message has none
+  fiber::FiberTopology topology;   ///< which fibres are closed, and what is joined
 
   void clear();
 
@@ -36,6 +37,13 @@ struct FiberBuffer {
   void end_chain() { offsets.push_back(static_cast<std::uint32_t>(points.size())); }
 
   std::size_t fiber_count() const { return offsets.empty() ? 0 : offsets.size() - 1; }
+
+  bool has_radius_per_point() const { return radii.size() > 1 && radii.size() == points.size(); }
+
+  /// @param fiber below fiber_count(), where `closed` has a value for each or none
+  bool is_closed(std::size_t fiber) const {
+    return !topology.closed.empty() && topology.closed[fiber] != 0;
+  }
 };
 
 /// Makes the assembly that of the buffer's fibres without copying their points, and without

@@ -185,7 +185,8 @@ void Predictor::find_contacts(const fiber::QueryOptions& options,
   }
   before_ = scene_.fibers.fibers();  // its own: the engine refers to it until the next time
   after_ = before_;
-  after_.update_points(points_);
+  // Points of a joint are extrapolated one by one, and may part.
+  after_.update_points(points_, fiber::JointCheck::LEFT_OUT);
   engine_->update_motion(before_, after_);
   const bool has_objects = scene_.environment.is_used();
   fiber::MotionOptions motion = fiber::motion_options(options, options_.tolerance);

@@ -153,6 +153,7 @@ InputOptions read_input_options(const XmlRpcValue& entry, double default_radius)
   read_key(entry, "name", options.name);
   read_key(entry, "radius", options.radius);
   read_key(entry, "uncertainty", options.uncertainty);
+  read_key(entry, "close_rings", options.close_rings);
   options.missing_points = read_missing_points(entry);
   read_key(entry, "required", options.required);
   read_key(entry, "max_pairs", options.cost.max_pairs);

@@ -32,6 +32,8 @@ struct InputOptions {
   /// [m] Every true point is at most this far from the one that the message tells.
   double uncertainty{};
 
+  bool close_rings{};  ///< fibres that end where they begin are closed
+
   MissingPoints missing_points = MissingPoints::REFUSE;
 
   bool required = true;  ///< answers without its fibres are incomplete

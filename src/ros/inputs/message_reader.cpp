@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "src/ros/inputs/closed_fibers.hpp"
 #include "src/ros/inputs/fixed_frame.hpp"
 
 namespace fiber_proximity_ros {
@@ -39,6 +40,9 @@ FiberMessagePtr MessageReader::read(const ReadMessage& read, InputStamps& stamps
     return nullptr;
   }
   name_fibers(options_.name, buffer_);
+  if (options_.close_rings) {
+    close_rings(buffer_);
+  }
   const std::uint64_t gaps_before = missing_.gaps;
   resolve_missing_points(options_.missing_points, buffer_, missing_);
   if (buffer_.radii.empty()) {
@@ -57,6 +61,10 @@ FiberMessagePtr MessageReader::read(const ReadMessage& read, InputStamps& stamps
   message->arrival = now;
   message->steady_arrival = ros::SteadyTime::now();
   remarks_ = std::move(result.remarks);
+  for (const fiber::LonelyJoint& lonely : fiber::lonely_joints(message->fibers.topology().joints)) {
+    remarks_.push_back("joint " + std::to_string(lonely.joint) + " is the number of point " +
+                       std::to_string(lonely.point) + " alone: it joins nothing");
+  }
   return message;
 }
 

@@ -7,22 +7,12 @@
 #include <unordered_set>
 #include <utility>
 
+#include "src/ros/inputs/closed_fibers.hpp"
+
 namespace fiber_proximity_ros {
 namespace {
 
 bool is_missing(const Eigen::Vector3d& point) { return !point.allFinite(); }
-
-/// True if every point belongs to a fibre of two at least, and the number of radii fits.
-bool has_sound_layout(const FiberBuffer& fibers) {
-  const std::vector<std::uint32_t>& offsets = fibers.offsets;
-  const auto is_too_short = [](std::uint32_t begin, std::uint32_t end) {
-    return std::uint64_t{end} < std::uint64_t{begin} + 2;
-  };
-  const std::size_t radii = fibers.radii.size();
-  return !offsets.empty() && offsets.front() == 0 && offsets.back() == fibers.points.size() &&
-         std::adjacent_find(offsets.begin(), offsets.end(), is_too_short) == offsets.end() &&
-         (radii <= 1 || radii == fibers.fiber_count() || radii == fibers.points.size());
-}
 
 [[noreturn]] void refuse_first(const FiberBuffer& fibers) {
   const auto missing = std::find_if(fibers.points.begin(), fibers.points.end(), is_missing);
@@ -47,11 +37,11 @@ class GapCloser {
   GapCloser(FiberBuffer& fibers, MissingPointCounts& counts)
       : fibers_(fibers),
         counts_(counts),
-        has_radius_per_point_(fibers.radii.size() > 1 &&
-                              fibers.radii.size() == fibers.points.size()),
+        has_radius_per_point_(fibers.has_radius_per_point()),
         has_radius_per_fiber_(fibers.radii.size() > 1 && !has_radius_per_point_),
         offsets_before_(std::exchange(fibers.offsets, {0})),
-        names_before_(std::exchange(fibers.names, {})) {
+        names_before_(std::exchange(fibers.names, {})),
+        closed_before_(std::exchange(fibers.topology.closed, {})) {
     if (has_radius_per_fiber_) {
       radii_before_ = std::exchange(fibers.radii, {});
     }
@@ -72,7 +62,12 @@ class GapCloser {
     if (has_radius_per_point_) {
       fibers_.radii.resize(end_);
     }
+    if (has_joints()) {
+      fibers_.topology.joints.resize(end_);
+    }
   }
+
+  bool has_joints() const { return !fibers_.topology.joints.empty(); }
 
   void close(std::size_t fiber, bool cuts) {
     const std::size_t fibers_before = fibers_.fiber_count();
@@ -102,6 +97,9 @@ class GapCloser {
     if (has_radius_per_point_) {
       fibers_.radii[end_] = fibers_.radii[point];
     }
+    if (has_joints()) {
+      fibers_.topology.joints[end_] = fibers_.topology.joints[point];
+    }
     ++end_;
   }
 
@@ -121,6 +119,11 @@ class GapCloser {
     }
     if (has_radius_per_fiber_) {
       fibers_.radii.push_back(radii_before_[fiber]);
+    }
+    if (!closed_before_.empty()) {
+      constexpr std::uint32_t min_closed_points = 3;
+      fibers_.topology.closed.push_back(end_ - begin < min_closed_points ? 0
+                                                                         : closed_before_[fiber]);
     }
     fibers_.offsets.push_back(end_);
   }
@@ -143,6 +146,7 @@ class GapCloser {
   bool has_radius_per_fiber_;
   std::vector<std::uint32_t> offsets_before_;
   std::vector<std::string> names_before_;
+  std::vector<std::uint8_t> closed_before_;
   std::vector<double> radii_before_;  // by fibre
   std::uint32_t end_ = 0;             // of the points kept so far
   std::uint32_t piece_begin_ = 0;     // where the piece's first point was
@@ -164,6 +168,9 @@ void resolve_missing_points(MissingPoints policy, FiberBuffer& fibers, MissingPo
       GapCloser(fibers, counts).bridge();
       break;
     case MissingPoints::SPLIT:
+      if (!fibers.topology.closed.empty()) {
+        open_rings(fibers);
+      }
       GapCloser(fibers, counts).split();
       break;
   }

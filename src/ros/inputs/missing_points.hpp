@@ -28,7 +28,9 @@ struct MissingPointCounts {
 /// A fibre that is cut keeps its name for the first of its pieces; another piece is called
 /// `name[i]`, where i is the index its first point had in the message's fibre, so that names are
 /// unique and the same piece has the same name whatever else is missing. A radius goes with its
-/// point, or with the pieces of its fibre.
+/// point, or with the pieces of its fibre, a joint with its point. A closed fibre that is bridged
+/// stays closed while it has three points. One that is to be cut is opened at its first point,
+/// which both of its ends have then, joined; all closed fibres of its message are.
 /// @throws std::invalid_argument naming the first of the missing points if they are to be refused
 void resolve_missing_points(MissingPoints policy, FiberBuffer& fibers, MissingPointCounts& counts);
 

@@ -13,14 +13,30 @@ void FiberBuffer::clear() {
   offsets.assign(1, 0);
   radii.clear();
   names.clear();
+  topology = {};
 }
 
+namespace {
+
+/// Whether the fibres have these offsets and radii, and are closed and joined alike.
+bool has_layout_of(const FiberBuffer& buffer, const fiber::FiberAssembly& fibers) {
+  const bool are_chains = fibers.graph() == nullptr;
+  if (are_chains && buffer.topology.closed.empty() && buffer.topology.joints.empty()) {
+    return buffer.offsets == fibers.offsets() && buffer.radii == fibers.radii();
+  }
+  const fiber::FiberTopology topology = fibers.topology();
+  return buffer.offsets == fibers.given_offsets() && buffer.topology.closed == topology.closed &&
+         buffer.topology.joints == topology.joints && buffer.radii == fibers.given_radii();
+}
+
+}  // namespace
+
 void assign(FiberBuffer& buffer, fiber::FiberAssembly& fibers) {
-  if (buffer.offsets == fibers.offsets() && buffer.radii == fibers.radii()) {
+  if (has_layout_of(buffer, fibers)) {
     fibers.exchange_points(buffer.points);
   } else {
     fibers = fiber::FiberAssembly(std::move(buffer.points), std::move(buffer.offsets),
-                                  std::move(buffer.radii));
+                                  std::move(buffer.radii), buffer.topology);
   }
 }
 
@@ -53,12 +69,24 @@ geometry_msgs::Pose to_message(const Eigen::Isometry3d& pose) {
 
 void to_message(const fiber::FiberAssembly& fibers, const std::vector<std::string>& names,
                 fiber_proximity::FiberArray& message) {
+  const bool are_chains = fibers.graph() == nullptr;
   message.names = names;
-  message.offsets = fibers.offsets();
-  message.radii = fibers.radii();
-  message.points.resize(fibers.point_count());
-  for (std::size_t i = 0; i < fibers.point_count(); ++i) {
-    message.points[i] = to_message(fibers.points()[i]);
+  message.offsets = are_chains ? fibers.offsets() : fibers.given_offsets();
+  message.radii = are_chains ? fibers.radii() : fibers.given_radii();
+  message.closed.clear();
+  message.joints.clear();
+  if (!are_chains) {
+    const fiber::FiberTopology topology = fibers.topology();
+    message.closed = topology.closed;
+    message.joints = topology.joints;
+  }
+  const std::size_t fiber_count = fibers.fiber_count();
+  message.points.resize(message.offsets.back());
+  for (std::size_t fiber = 0; fiber < fiber_count; ++fiber) {
+    const std::uint32_t shift = fibers.offsets()[fiber] - message.offsets[fiber];
+    for (std::uint32_t i = message.offsets[fiber]; i < message.offsets[fiber + 1]; ++i) {
+      message.points[i] = to_message(fibers.points()[i + shift]);
+    }
   }
 }
 
@@ -113,6 +141,8 @@ void to_chains(const fiber_proximity::FiberArray& message, FiberBuffer& fibers) 
   fibers.offsets = message.offsets;
   fibers.radii = message.radii;
   fibers.names = message.names;
+  fibers.topology.closed = message.closed;
+  fibers.topology.joints = message.joints;
   fibers.points.reserve(message.points.size());
   for (const geometry_msgs::Point& point : message.points) {
     fibers.points.push_back(to_vector(point));

@@ -11,6 +11,7 @@
 
 namespace FIBER_PROXIMITY_EXPORT fiber {
 
+class FiberGraph;
 struct LoopPlace;
 
 /// Tells contacts of a fibre with itself from segments that are near because they follow each
@@ -22,6 +23,10 @@ struct LoopPlace;
 /// they are nearest count, and the outer end of each with the place nearest to it, if these are at
 /// most one radius further apart: parallel strands are nearest at more than one place. The radius
 /// is that of the thicker segment.
+///
+/// Where fibres are closed or joined, every way along the graph from one segment to the other is
+/// asked, those to other fibres as well: only if each of them makes a loop, the segments do. A way
+/// runs through neither of the two, and their outer ends are those that it does not come by.
 ///
 /// The rule knows no margin, so a larger margin never hides a contact. No stretch of a fibre has
 /// contacts with itself that turns by less than a right angle, even if every point is off by up to
@@ -47,7 +52,14 @@ class LoopTest {
     return pair.b - pair.a < max_points_ && is_within(fibers_->segment_id(pair.a).fiber, pair.b);
   }
 
-  /// Whether the fibre makes a loop between two of its segments that share no point.
+  /// Whether a way leads from one segment to the other: both are of one fibre, or of fibres that
+  /// are joined.
+  bool are_joined(PointPair pair) const {
+    return graph_ == nullptr ? are_of_one_fiber(pair) : are_joined_by_graph(pair);
+  }
+
+  /// Whether a loop is between two segments that are joined and share no point: whether all ways
+  /// from one to the other make one.
   /// @param pair the smaller index first
   /// @param nearest of the kernel robust
   /// @param loop_steps grows by the points and boxes of the fibre that had to be visited
@@ -73,13 +85,19 @@ class LoopTest {
     return point < fibers_->offsets()[fiber + 1];
   }
   const Chain& chain(std::uint32_t fiber) const;
-  bool leaves(const LoopPlace& place, PointPair pair, double limit,
+  bool leaves(const LoopPlace& place, PointRange points, double limit,
               std::uint64_t& loop_steps) const;
+  bool fiber_makes_loop(PointPair pair, const SegmentDistance& nearest,
+                        std::uint64_t& loop_steps) const;
+  bool are_joined_by_graph(PointPair pair) const;
+  bool all_ways_make_loops(PointPair pair, const SegmentDistance& nearest,
+                           std::uint64_t& loop_steps) const;
 
   const FiberAssembly* fibers_ = nullptr;
-  std::uint32_t max_points_ = 0;     // of a fibre
-  mutable std::vector<Slot> slots_;  // by fibre; filled when asked for, most never are
-  mutable std::mutex mutex_;         // of those that fill them
+  const FiberGraph* graph_ = nullptr;  // of these fibres, if they have one
+  std::uint32_t max_points_ = 0;       // of a fibre
+  mutable std::vector<Slot> slots_;    // by fibre; filled when asked for, most never are
+  mutable std::mutex mutex_;           // of those that fill them
 };
 
 }  // namespace fiber

@@ -42,25 +42,25 @@ class NarrowPhase {
   /// Whether segments that share a point are pairs.
   bool wants_adjacent() const { return !self_ || neighbour_skip_ == 0; }
 
-  /// Whether this ordered pair is left out: by the neighbour skips or the pairing. Where points are
-  /// changes this only through neighbour_skip_length.
+  /// Whether this ordered pair is left out: by the neighbour skips, along the shortest way of the
+  /// graph, or the pairing. Where points are changes this only through neighbour_skip_length.
   bool is_left_out(PointPair pair) const {
     const bool far_by_index = pair.b - pair.a > neighbour_skip_;
-    return self_ && ((!(far_by_index && arc_length_.empty()) && is_neighbour_of_same_fiber(pair)) ||
+    return self_ && ((!(far_by_index && index_decides_) && is_neighbour(pair)) ||
                      (options_.pairing != Pairing::ALL &&
                       is_of_one_fiber(pair) != (options_.pairing == Pairing::SAME_FIBER)));
   }
 
   /// Whether this ordered pair that is not left out is none all the same: the options need loops,
-  /// and the fibre makes none between these segments.
+  /// and a way from one of these segments to the other makes none.
   /// @param loop_steps as LoopTest::makes_loop() has them
   bool lacks_loop(PointPair pair, const PairDistance& distance, std::uint64_t& loop_steps) const {
-    return loops_ != nullptr && loops_->are_of_one_fiber(pair) &&
+    return loops_ != nullptr && loops_->are_joined(pair) &&
            !loops_->makes_loop(pair, distance.nearest, loop_steps);
   }
   /// lacks_loop() where the distance is not known yet.
   bool lacks_loop(PointPair pair) const {
-    return loops_ != nullptr && loops_->are_of_one_fiber(pair) &&
+    return loops_ != nullptr && loops_->are_joined(pair) &&
            !loops_->makes_loop(pair, distance(pair).nearest);
   }
 
@@ -98,7 +98,7 @@ class NarrowPhase {
   Contact contact(PointPair pair, const PairDistance& distance) const;
 
  private:
-  bool is_neighbour_of_same_fiber(PointPair pair) const;
+  bool is_neighbour(PointPair pair) const;
   bool is_of_one_fiber(PointPair pair) const {
     return a_.segment_id(pair.a).fiber == a_.segment_id(pair.b).fiber;
   }
@@ -115,6 +115,8 @@ class NarrowPhase {
   std::optional<LoopTest> own_loops_;
   const LoopTest* loops_ = nullptr;  // none where the options do not need them
   std::vector<double> arc_length_;   // [m] by point, from its fibre's start; empty if not needed
+  // Whether segments whose indices differ by more than the skip are no neighbours.
+  bool index_decides_ = true;
 };
 
 }  // namespace fiber
