@@ -14,6 +14,7 @@ namespace fiber {
 namespace {
 
 bool has_places_of_radii(FileFormat format) { return format != FileFormat::TCK; }
+bool has_places_of_graphs(FileFormat format) { return format == FileFormat::VTP; }
 
 }  // namespace
 
@@ -44,7 +45,7 @@ std::vector<std::string> losses(FileFormat format, const FiberFrame& frame) {
   if (has_radii(frame.fibers) && !has_places_of_radii(format)) {
     lost.emplace_back("the format has no radii: fibres are only their axes");
   }
-  if (frame.fibers.graph() != nullptr && format != FileFormat::VTP) {
+  if (frame.fibers.graph() != nullptr && !has_places_of_graphs(format)) {
     lost.emplace_back(
         "the format has no closed or joined fibres: rings are chains that end where they begin");
   }

@@ -265,7 +265,9 @@ class VtkReader {
              text_of(components) + " numbers, the file " + text_of(bytes_.size()) + " bytes");
     }
     const NumberArray numbers = take_numbers(type, components * tuples);
-    if (piece_.radii || !is_of_points_ || components != 1 || !is_radius_name(name)) {
+    const bool is_radius = !piece_.radii && is_radius_name(name);
+    const bool is_joint = name == "joint" && is_whole(type);
+    if (!is_of_points_ || components != 1 || !(is_radius || is_joint)) {
       lines_.skip_array(name);
       return;
     }
@@ -273,7 +275,7 @@ class VtkReader {
       refuse("the array " + quote(name) + " has " + text_of(numbers.size()) + " numbers for " +
              text_of(piece_.points.numbers.size() / 3) + " points");
     }
-    piece_.radii = {numbers, std::string(name) + at_byte(begin)};
+    (is_radius ? piece_.radii : piece_.joints) = {numbers, std::string(name) + at_byte(begin)};
   }
 
   /// The words up to the line's end, without blanks around them.
@@ -319,6 +321,7 @@ class VtkReader {
   std::uint64_t tuples_ = 0;      // of the attributes
   std::deque<std::string> made_;  // numbers that do not stand in the file as they are in memory
   VtkPiece piece_{{},
+                  {},
                   {},
                   {NumberArray(NumberType::INT64, native_order, ""), "LINES"},
                   {NumberArray(NumberType::INT64, native_order, ""), "LINES"}};

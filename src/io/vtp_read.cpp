@@ -124,7 +124,7 @@ class VtpReader {
     const std::uint64_t point_count = count_in(element, "NumberOfPoints");
     const std::uint64_t line_count = count_in(element, "NumberOfLines");
     VtkPiece piece;
-    piece.radii = read_radii(element, point_count);
+    read_point_data(element, point_count, piece);
     for_each_child(element.FirstChildElement("CellData"), nullptr,
                    [&](const XMLElement& array) { lines_.skip_array(attribute(array, "Name")); });
     const XMLElement* const points = element.FirstChildElement("Points");
@@ -134,24 +134,25 @@ class VtpReader {
     piece.ends = read_array(element, line_array(element, "offsets"), "offsets", 1, line_count);
     piece.ids =
         read_array(element, line_array(element, "connectivity"), "connectivity", 1, std::nullopt);
-    if (!is_whole(piece.ends.numbers.type()) || !is_whole(piece.ids.numbers.type())) {
-      refuse(element, "the arrays offsets and connectivity must be of whole numbers");
+    if (!is_whole(piece.ends.numbers.type()) || !is_whole(piece.ids.numbers.type()) ||
+        (piece.joints && !is_whole(piece.joints->numbers.type()))) {
+      refuse(element, "the arrays offsets, connectivity and joint must be of whole numbers");
     }
     lines_.add(piece);
     decoded_.clear();
   }
 
-  std::optional<VtkArray> read_radii(const XMLElement& piece, std::uint64_t point_count) {
-    std::optional<VtkArray> radii;
-    for_each_child(piece.FirstChildElement("PointData"), nullptr, [&](const XMLElement& array) {
-      const std::string_view name = attribute(array, "Name");
-      if (!radii && is_radius_name(name)) {
-        radii = read_array(piece, &array, std::string(name).c_str(), 1, point_count);
+  void read_point_data(const XMLElement& element, std::uint64_t point_count, VtkPiece& piece) {
+    for_each_child(element.FirstChildElement("PointData"), nullptr, [&](const XMLElement& array) {
+      const std::string name(attribute(array, "Name"));
+      if (!piece.radii && is_radius_name(name)) {
+        piece.radii = read_array(element, &array, name.c_str(), 1, point_count);
+      } else if (name == "joint") {
+        piece.joints = read_array(element, &array, name.c_str(), 1, point_count);
       } else {
         lines_.skip_array(name);
       }
     });
-    return radii;
   }
 
   static const XMLElement* line_array(const XMLElement& piece, std::string_view name) {
@@ -190,16 +191,18 @@ class VtpReader {
     const NumberType type = type_of(element);
     const std::string_view format = attribute(element, "format");
     std::string& bytes = decoded_.emplace_back();
+    // What errors quote stays as long as this.
+    const std::string inline_text = format == "appended" ? "" : text_in(element);
     if (format == "ascii") {
-      if (const auto wrong = append_numbers(bytes, type, text_in(element))) {
+      if (const auto wrong = append_numbers(bytes, type, inline_text)) {
         refuse(element, "has " + quote(*wrong) + ", expected a number");
       }
       return {type_in_memory(type), native_order, bytes};
     }
     VtkEncoding encoding = encoding_;
     encoding.is_base64 = format != "appended" || is_appended_base64_;
-    const std::string inline_text = format == "binary" ? text_in(element) : "";
-    const std::string_view text = format == "binary" ? inline_text : appended_at(element);
+    const std::string_view text =
+        format == "binary" ? std::string_view(inline_text) : appended_at(element);
     try {
       bytes = decode_array(text, encoding);
     } catch (const std::runtime_error& error) {

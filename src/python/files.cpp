@@ -128,10 +128,12 @@ void bind_files(py::module& module) {
   });
   module.def("read", &read, py::arg("path"), py::arg("default_radius") = 0.0,
              py::arg("skip_single_points") = false, R"(
-Reads a file of fibres at one moment: .csv, .hair, .tck or .trk, as its name ends.
+Reads a file of fibres at one moment: .csv, .hair, .tck, .trk, .vtk or .vtp, as its
+name ends.
 
-Tractograms (.tck, .trk) are in millimetres and become metres; .hair states no unit and is taken as
-metres. CSV has a header with the columns x, y, z and, where there are any, fiber (names), frame and radius,
+Tractograms (.tck, .trk) are in millimetres and become metres; .hair, .vtk and .vtp state no unit
+and are taken as metres. Lines of VTK that end where they begin are closed, points that they share
+are joints. CSV has a header with the columns x, y, z and, where there are any, fiber (names), frame and radius,
 in any order, separated by commas, semicolons, tabs or blanks. A warning names others.
 
 Parameters

@@ -169,7 +169,7 @@ TEST(ReadVtp, ReadsWhatIsWritten) {
   SCOPED_TRACE(seed_message());
   Random random;
   for (int trial = 0; trial < 200; ++trial) {
-    const FiberAssembly fibers = random_fibers(random);
+    const FiberAssembly fibers = random_graph(random);
     std::stringstream stream;
     write_vtp(stream, fibers);
     const FiberFile again = read_vtp(stream, "a");
@@ -200,6 +200,33 @@ TEST(ReadVtp, ReadsAllPiecesAndTellsWhatElseThereIs) {
       base64(Bytes().uint(8, 4).text()) + "\n" + base64(Bytes().uint(3, 4).uint(5, 4).text());
   expect_same_fibers(read_text(read_vtp, with(vtp_sample({}), joined, apart)).frames.at(0).fibers,
                      vtk_fibers(true));
+}
+
+TEST(ReadVtp, RingsAreClosedAndTheirPointsCount) {
+  const auto lines = [](const std::string& ids, const std::string& offsets) {
+    return "<VTKFile type=\"PolyData\"><PolyData><Piece NumberOfPoints=\"5\"><PointData><DataArray "
+           "Name=\"joint\" type=\"Int8\" format=\"ascii\">-1 7 -1 -1 7</DataArray></PointData>"
+           "<Points><DataArray type=\"Int8\" NumberOfComponents=\"3\" format=\"ascii\">0 0 0 1 0 0 "
+           "1 1 0 2 2 2 1 0 0</DataArray></Points><Lines><DataArray type=\"Int8\" "
+           "Name=\"connectivity\" format=\"ascii\">" +
+           ids + "</DataArray><DataArray type=\"Int8\" Name=\"offsets\" format=\"ascii\">" +
+           offsets + "</DataArray></Lines></Piece></PolyData></VTKFile>";
+  };
+  // A ring, and a line from it that begins at a copy of its point 1 and ends at its point 0.
+  const std::string ring =
+      with(lines("0 1 2 0 4 3 0", "4 7"), "<Piece ", "<Piece NumberOfLines=\"2\" ");
+  FiberTopology topology;
+  topology.closed = {1, 0};
+  topology.joints = {8, 7, -1, 7, -1, 8};
+  expect_same_fibers(read_text(read_vtp, ring).frames.at(0).fibers,
+                     {{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {1, 0, 0}, {2, 2, 2}, {0, 0, 0}},
+                      {0, 3, 6},
+                      {0},
+                      topology});
+  EXPECT_EQ(vtp_refusal(with(lines("0 1 0", "3"), "<Piece ", "<Piece NumberOfLines=\"1\" ")),
+            ": line 0 is closed and has 2 points, a closed fibre needs at least 3");
+  EXPECT_EQ(vtp_refusal(with(ring, "7 -1 -1 7", "7 7 -1 -1")).find(": joint 7"), 0U)
+      << vtp_refusal(with(ring, "7 -1 -1 7", "7 7 -1 -1"));
 }
 
 TEST(ReadVtp, RefusesHeadersItCannotFollow) {

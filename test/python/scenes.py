@@ -105,7 +105,7 @@ class Files(unittest.TestCase):
 
     def test_formats_of_other_programs(self):
         fibers = fp.Fibers(*support.random_fibers(np.random.default_rng(62), radii='fiber'))
-        for end in ('tck', 'trk'):
+        for end in ('tck', 'trk', 'vtp'):
             path = self.path('a.' + end)
             with warnings.catch_warnings(record=True) as caught:
                 warnings.simplefilter('always')
@@ -114,7 +114,7 @@ class Files(unittest.TestCase):
             lost = [f'{path}: the format has no radii: fibres are only their axes'] if end == 'tck' else []
             self.assertEqual([str(warning.message) for warning in caught], lost)
             millimetres = (1000 * fibers.points).astype('f4').astype('f8')
-            np.testing.assert_array_equal(again.points, millimetres / 1000)
+            np.testing.assert_array_equal(again.points, fibers.points if end == 'vtp' else millimetres / 1000)
             np.testing.assert_array_equal(again.offsets, fibers.offsets)
             if end == 'tck':
                 np.testing.assert_array_equal(again.radii, 0.25)
