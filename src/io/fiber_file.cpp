@@ -149,6 +149,10 @@ FiberFile read_fibers(const std::string& path, const ReadOptions& options) {
   switch (format_of(path)) {
     case FileFormat::HAIR:
       return read_hair(stream, path, options);
+    case FileFormat::NPZ:
+      return read_npz(stream, path, options);
+    case FileFormat::SWC:
+      return read_swc(stream, path, options);
     case FileFormat::TCK:
       return read_tck(stream, path, options);
     case FileFormat::TRK:

@@ -23,9 +23,9 @@ struct KnownFormat {
 };
 
 constexpr const char* what_is_read =
-    "CSV, .hair, .tck, .trk, .vtk and .vtp are read, and .h5 by fiber_query_mpi";
+    "CSV, .hair, .npz, .swc, .tck, .trk, .vtk and .vtp are read, and .h5 by fiber_query_mpi";
 constexpr const char* what_is_written =
-    "CSV, .hair, .pvd, .tck, .trk and .vtp are written, and .h5 by fiber_query_mpi convert";
+    "CSV, .hair, .npz, .pvd, .tck, .trk and .vtp are written, and .h5 by fiber_query_mpi convert";
 
 /// Names that mean none of these are taken for CSV, so a format that people have fibres in, or take
 /// such a name for, has a line here.
@@ -42,9 +42,10 @@ const std::vector<KnownFormat>& known_formats() {
       {FileFormat::VTK, "VTK", {".vtk"}, {"# vtk"}, true, false},
       {FileFormat::JSON, "JSON", {".json", ".jsonl"}, {"{", "["}},
       {FileFormat::OTHER, "VTK", {".vtu"}, {}},
-      {FileFormat::OTHER, "NumPy", {".npy", ".npz"}, {"\x93NUMPY"}},
+      {FileFormat::OTHER, "NumPy", {".npy"}, {"\x93NUMPY"}},
+      {FileFormat::NPZ, "NumPy's archive", {".npz"}, {}, true, true},
       {FileFormat::OTHER, "tractography", {".trx"}, {}},
-      {FileFormat::OTHER, "SWC", {".swc"}, {}},
+      {FileFormat::SWC, "SWC", {".swc"}, {}, true, false},
       {FileFormat::OTHER, "XYZ", {".xyz"}, {}},
       {FileFormat::OTHER, "PLY", {".ply"}, {"ply"}},
       {FileFormat::OTHER, "OBJ", {".obj"}, {}},

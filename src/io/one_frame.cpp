@@ -14,7 +14,9 @@ namespace fiber {
 namespace {
 
 bool has_places_of_radii(FileFormat format) { return format != FileFormat::TCK; }
-bool has_places_of_graphs(FileFormat format) { return format == FileFormat::VTP; }
+bool has_places_of_graphs(FileFormat format) {
+  return format == FileFormat::NPZ || format == FileFormat::VTP;
+}
 
 }  // namespace
 
@@ -23,6 +25,9 @@ std::string encoded(FileFormat format, const FiberFile& file) {
   switch (format) {
     case FileFormat::HAIR:
       write_hair(stream, file);
+      break;
+    case FileFormat::NPZ:
+      write_npz(stream, file);
       break;
     case FileFormat::TCK:
       write_tck(stream, file);

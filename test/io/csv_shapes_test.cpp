@@ -230,7 +230,7 @@ TEST(CsvShapes, ACommentThatCouldBeARowIsRefused) {
 
 TEST(CsvShapes, OtherFormatsAreKnownByTheirFirstBytes) {
   const std::string rest =
-      ", by its name CSV; CSV, .hair, .tck, .trk, .vtk and .vtp are read, and .h5 by "
+      ", by its name CSV; CSV, .hair, .npz, .swc, .tck, .trk, .vtk and .vtp are read, and .h5 by "
       "fiber_query_mpi";
   EXPECT_EQ(error_in_shape("\x89HDF\r\n\x1A\n"), "shape.csv:1: is HDF5" + rest);
   EXPECT_EQ(error_in_shape("<?xml version=\"1.0\"?>\n"), "shape.csv:1: is VTK" + rest);
