@@ -48,6 +48,6 @@ start_virtual_display
 start_launch_file "$launch_file" rviz_args:="$rviz_args --splash-screen ''" "$@"
 wait_for "rviz showed fibres" roslaunch "$launch" picture_shows_fibers
 sleep "$after"
-take_picture || fail "no picture" import
+picture_shows_fibers || fail "no picture with fibres $after s later" import
 mv "$scratch/picture.png" "$picture"
 echo "saved $picture"

@@ -108,6 +108,7 @@ add_executable(node_test EXCLUDE_FROM_ALL
   ros/engines_test.cpp
   ros/environment_test.cpp
   ros/inputs_test.cpp
+  ros/joined_test.cpp
   ros/limits_test.cpp
   ros/main.cpp
   ros/measure_settings_test.cpp
@@ -138,8 +139,8 @@ foreach(name crossings draw environment inputs query unknown)
     ARGS nodelet:=true DEPENDENCIES node_test fiber_proximity_nodelets fiber_player)
 endforeach()
 add_rostest(ros/nodelet.test DEPENDENCIES node_test fiber_proximity_nodelets)
-foreach(name bad_input cell cloud_points compare continuous crossings_camera engines limits measure_settings reconfigure
-    self_contact shared_tracks sim_time skin soak stale timing tracks)
+foreach(name bad_input cell cloud_points compare continuous crossings_camera engines joined limits measure_settings
+    reconfigure self_contact shared_tracks sim_time skin soak stale timing tracks)
   add_rostest(ros/${name}.test DEPENDENCIES node_test proximity_node fiber_player)
 endforeach()
 
@@ -304,6 +305,7 @@ roslaunch_add_file_check(../launch/demo.launch)
 roslaunch_add_file_check(../launch/guard_robot.launch distance:=0.05)
 roslaunch_add_file_check(../launch/hair.launch)
 roslaunch_add_file_check(../launch/hose.launch)
+roslaunch_add_file_check(../launch/joined.launch)
 roslaunch_add_file_check(../launch/known_frame.launch)
 roslaunch_add_file_check(../launch/passing.launch)
 roslaunch_add_file_check(../launch/proximity.launch)

@@ -27,6 +27,7 @@ LAUNCHES = {
     "demo": [],
     "hair": ["scene:=cables", "rate:=2"],
     "hose": [],
+    "joined": [],
     "passing": [],
     "tracker_example": [],
     "with_tracker": [*WITH_TRACKER, "known_frame:=true"],

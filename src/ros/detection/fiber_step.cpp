@@ -57,7 +57,7 @@ std::string FiberStep::find_motion() {
   std::ostringstream problem;
   const fiber::FiberAssembly& before = before_.message->fibers;
   const fiber::FiberAssembly& after = after_.message->fibers;
-  if (before_.message->names != after_.message->names || before.offsets() != after.offsets()) {
+  if (before_.message->names != after_.message->names || !before.has_topology_of(after)) {
     problem << "the fibres are no longer the same: " << extent_of(before) << " before, "
             << extent_of(after) << " now";
     return problem.str();

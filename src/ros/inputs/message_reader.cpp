@@ -61,7 +61,7 @@ FiberMessagePtr MessageReader::read(const ReadMessage& read, InputStamps& stamps
   message->arrival = now;
   message->steady_arrival = ros::SteadyTime::now();
   remarks_ = std::move(result.remarks);
-  for (const fiber::LonelyJoint& lonely : fiber::lonely_joints(message->fibers.topology().joints)) {
+  for (const fiber::LonelyJoint& lonely : fiber::lonely_joints(buffer_.topology.joints)) {
     remarks_.push_back("joint " + std::to_string(lonely.joint) + " is the number of point " +
                        std::to_string(lonely.point) + " alone: it joins nothing");
   }
