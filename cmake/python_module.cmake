@@ -45,6 +45,7 @@ add_library(fiber_proximity_python MODULE
   src/python/environment.cpp
   src/python/environment_objects.cpp
   src/python/errors.cpp
+  src/python/fiber_arguments.cpp
   src/python/fibers.cpp
   src/python/files.cpp
   src/python/forces.cpp

@@ -1,7 +1,10 @@
 #include "src/accuracy/resampling.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
+
+#include "src/geometry/fiber_graph.hpp"
 
 namespace fiber {
 namespace {
@@ -31,6 +34,28 @@ std::pair<std::uint32_t, double> farthest(const std::vector<const FiberAssembly*
   return found;
 }
 
+/// Points that stay whatever the error: ends of fibres and points of joints, and of a closed fibre
+/// two more, so that it keeps three.
+std::vector<std::uint32_t> points_to_keep(const FiberAssembly& fibers, std::size_t fiber) {
+  const std::uint32_t first = fibers.offsets()[fiber];
+  const std::uint32_t last = fibers.offsets()[fiber + 1] - 1;
+  std::vector<std::uint32_t> kept{first, last};
+  if (fibers.is_closed(fiber)) {
+    kept.push_back(first + (last - first) / 3);
+    kept.push_back(first + 2 * (last - first) / 3);
+  }
+  if (fibers.graph() != nullptr) {
+    for (std::uint32_t i = fibers.graph()->next_from(first);
+         i != FiberGraph::none && fibers.graph()->joint_points()[i].point <= last;
+         i = fibers.graph()->has_next(i) ? i + 1 : FiberGraph::none) {
+      kept.push_back(fibers.graph()->joint_points()[i].point);
+    }
+  }
+  std::sort(kept.begin(), kept.end());
+  kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
+  return kept;
+}
+
 }  // namespace
 
 std::vector<std::uint32_t> enough_points(const std::vector<const FiberAssembly*>& states,
@@ -39,7 +64,10 @@ std::vector<std::uint32_t> enough_points(const std::vector<const FiberAssembly*>
   std::vector<char> stays(states.front()->point_count(), 0);
   std::vector<std::pair<std::uint32_t, std::uint32_t>> chords;
   for (std::size_t fiber = 0; fiber + 1 < offsets.size(); ++fiber) {
-    chords.emplace_back(offsets[fiber], offsets[fiber + 1] - 1);
+    const std::vector<std::uint32_t> kept = points_to_keep(*states.front(), fiber);
+    for (std::size_t i = 1; i < kept.size(); ++i) {
+      chords.emplace_back(kept[i - 1], kept[i]);
+    }
   }
   while (!chords.empty()) {
     const auto [first, last] = chords.back();
@@ -64,10 +92,22 @@ FiberAssembly select_points(const FiberAssembly& fibers, const std::vector<std::
   std::vector<Eigen::Vector3d> selected;
   std::vector<std::uint32_t> offsets{0};
   std::vector<double> radii;
+  const FiberTopology all = fibers.topology();
+  FiberTopology topology;
+  std::size_t next = 0;  // of the points
+  topology.closed = all.closed;
+  topology.joint_tolerance = std::numeric_limits<double>::infinity();
   for (std::size_t fiber = 0; fiber < fibers.fiber_count(); ++fiber) {
     const std::uint32_t begin = fibers.offsets()[fiber];
     const std::uint32_t end = fibers.offsets()[fiber + 1];
-    for (std::size_t i = selected.size(); i < points.size() && points[i] < end; ++i) {
+    for (; next < points.size() && points[next] < end; ++next) {
+      const std::size_t i = next;
+      if (fibers.is_closed(fiber) && points[i] == end - 1) {
+        continue;  // the first one again
+      }
+      if (!all.joints.empty()) {
+        topology.joints.push_back(all.joints[fibers.given_offsets()[fiber] + (points[i] - begin)]);
+      }
       selected.push_back(fibers.points()[points[i]]);
       const std::uint32_t before = points[i] == begin ? begin : points[i - 1];
       const std::uint32_t after = points[i] == end - 1 ? end - 1 : points[i + 1];
@@ -80,7 +120,7 @@ FiberAssembly select_points(const FiberAssembly& fibers, const std::vector<std::
     offsets.push_back(static_cast<std::uint32_t>(selected.size()));
   }
   return {std::move(selected), std::move(offsets),
-          fibers.radius_per() == RadiusPer::ASSEMBLY ? fibers.radii() : std::move(radii)};
+          fibers.radius_per() == RadiusPer::ASSEMBLY ? fibers.radii() : std::move(radii), topology};
 }
 
 }  // namespace fiber

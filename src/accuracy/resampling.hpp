@@ -13,7 +13,8 @@ namespace fiber {
 /// error, and a distance of two of them by at most twice as much.
 /// @param states of one topology, at least one
 /// @param error  [m], > 0
-/// @return indices of points that stay, rising; the ends of each fibre are among them
+/// @return indices of points that stay, rising; the ends of each fibre and all points of joints are
+///         among them, and three points of a closed fibre
 std::vector<std::uint32_t> enough_points(const std::vector<const FiberAssembly*>& states,
                                          double error);
 

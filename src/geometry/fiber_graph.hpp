@@ -93,6 +93,23 @@ class FIBER_PROXIMITY_EXPORT FiberGraph {
     return first_from_[first] != first_from_[end];
   }
 
+  /// The joint of a point, or none.
+  std::uint32_t joint_of(std::uint32_t point) const {
+    const std::uint32_t index = first_from_[point];
+    return index == first_from_[point + 1] ? none : joint_points_[index].joint;
+  }
+
+  /// Whether an end of one segment is of the same joint as an end of the other.
+  bool share_joint(std::uint32_t segment_a, std::uint32_t segment_b) const {
+    for (const std::uint32_t point : {segment_a, segment_a + 1}) {
+      const std::uint32_t joint = joint_of(point);
+      if (joint != none && (joint == joint_of(segment_b) || joint == joint_of(segment_b + 1))) {
+        return true;
+      }
+    }
+    return false;
+  }
+
   /// The joint points of a joint.
   Members members(std::uint32_t joint) const {
     return {members_.data() + member_begins_[joint], members_.data() + member_begins_[joint + 1]};

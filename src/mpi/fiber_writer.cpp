@@ -5,6 +5,7 @@
 
 #include "fiber_proximity/mpi/distributed_files.hpp"
 #include "src/io/radii.hpp"
+#include "src/mpi/error_of_joints.hpp"
 #include "src/mpi/fiber_layout.hpp"
 #include "src/mpi/fiber_name_data.hpp"
 #include "src/mpi/fiber_runs.hpp"
@@ -169,7 +170,7 @@ void DistributedFiberWriter::write(std::int64_t frame, const DistributedFibers& 
   const Communicator& ranks = state_->ranks;
   const std::size_t count = fibers.parts.fiber_count();
   ranks.throw_on_all(fibers.names.size() == count
-                         ? ""
+                         ? error_of_joints(fibers.parts)
                          : std::to_string(fibers.names.size()) + " names for " +
                                std::to_string(count) + " parts, there must be one per part");
   ranks.throw_on_all(error_in([&] { require_names(fibers); }));

@@ -5,26 +5,9 @@
 #include <limits>
 #include <string>
 
-#include "src/geometry/fiber_graph.hpp"
+#include "src/mpi/error_of_joints.hpp"
 
 namespace fiber {
-
-namespace {
-
-/// Says which fibre is closed or joined, if one is: ranks do not know of joints.
-std::string error_of_joints(const FiberAssembly& parts) {
-  if (parts.graph() == nullptr) {
-    return "";
-  }
-  const FiberGraph::JointPoint& first = parts.graph()->joint_points().front();
-  return "part " + std::to_string(first.fiber) + ", point " +
-         std::to_string(first.point - parts.offsets()[first.fiber]) +
-         (parts.is_closed(first.fiber) ? ": the fibre is closed" : ": the point is joined") +
-         "; the ranks of MPI take open fibres that are not joined, an engine of one process takes "
-         "all";
-}
-
-}  // namespace
 
 void OwnedFibers::take_runs(const Communicator& ranks) {
   std::vector<FiberRun> runs = routes_.send_runs(ranks);
@@ -35,18 +18,16 @@ void OwnedFibers::take_runs(const Communicator& ranks) {
 void OwnedFibers::take(const Communicator& ranks, const FiberAssembly& parts,
                        const FiberAssembly* after, const std::vector<FiberPart>& names,
                        const RankLoad& load) {
-  ranks.throw_on_all(error_of_joints(parts));
-  ranks.throw_on_all(after == nullptr ? "" : error_of_joints(*after));
   const bool is_same = ranks.all(has_fibers_ && routes_.is_of(parts, names));
   has_fibers_ = false;
   ranks.throw_on_all(names.size() == parts.fiber_count()
-                         ? ""
+                         ? error_of_joints(parts)
                          : std::to_string(names.size()) + " names for " +
                                std::to_string(parts.fiber_count()) +
                                " parts, there must be one per part");
   ranks.throw_on_all(
       after == nullptr || after->offsets() == parts.offsets()
-          ? ""
+          ? error_of_joints(after == nullptr ? parts : *after)
           : "the parts after the motion are not of the same numbers of points as before it");
   if (!is_same) {
     routes_.set_parts(ranks, parts, names);

@@ -8,6 +8,7 @@
 
 #include "src/python/bindings.hpp"
 #include "src/python/curves.hpp"
+#include "src/python/fiber_arguments.hpp"
 
 namespace fiber::python {
 
@@ -37,46 +38,6 @@ void Fibers::move(const double* rows, std::size_t count) {
   spare_->exchange_points(incoming_);
   const std::lock_guard<std::mutex> lock(newest_);
   state_.swap(spare_);
-}
-
-FiberAssembly make_fibers(const py::object& points, const py::object& offsets,
-                          const py::object& radii) {
-  if (is_list_of_curves(points)) {
-    if (!offsets.is_none()) {
-      throw std::invalid_argument("points is a list of curves, which needs no offsets");
-    }
-    Curves curves = to_curves(points, "points");
-    std::vector<double> thickness = to_radii(radii, curves.offsets);
-    const WithoutPythonLock others_may_run;
-    return FiberAssembly(std::move(curves.points), std::move(curves.offsets), std::move(thickness));
-  }
-  const Doubles array = to_doubles(points, "points");
-  const bool is_stack = array.ndim() == 3 && offsets.is_none();
-  if (!is_stack && array.ndim() != 2) {
-    refuse_shape(array, "points", "(n, 3), or (fibres, n, 3) without offsets");
-  }
-  if (array.shape(array.ndim() - 1) != 3) {
-    refuse_shape(array, "points", "(n, 3), or (fibres, n, 3) without offsets");
-  }
-  std::vector<std::uint32_t> begins;
-  if (offsets.is_none()) {
-    const Py_ssize_t length = is_stack ? array.shape(1) : array.shape(0);
-    // One fibre without points is enough to be refused.
-    const Py_ssize_t most = length == 0 ? 1 : std::numeric_limits<Py_ssize_t>::max();
-    const Py_ssize_t fibers = is_stack ? std::min(array.shape(0), most) : 1;
-    for (Py_ssize_t fiber = 0; fiber <= fibers; ++fiber) {
-      begins.push_back(to_index(fiber * length, "the number of points"));
-    }
-  } else {
-    begins = to_indices(offsets, "offsets");
-  }
-  std::vector<double> thickness = to_numbers(radii, "radii");
-  const double* rows = array.data();
-  const auto count = static_cast<std::size_t>(array.size() / 3);
-  const WithoutPythonLock others_may_run;
-  std::vector<Eigen::Vector3d> copied;
-  copy_points(rows, count, copied);
-  return FiberAssembly(std::move(copied), std::move(begins), std::move(thickness));
 }
 
 Fibers::State to_state(const py::object& object, const char* name) {
@@ -130,7 +91,10 @@ void rename_fibers(Fibers& fibers, const py::iterable& names) {
 
 py::array points_of(const Fibers& fibers) {
   const Fibers::State state = fibers.state();
-  const auto count = static_cast<Py_ssize_t>(state->point_count());
+  const auto count = static_cast<Py_ssize_t>(state->given_offsets().back());
+  if (state->graph() != nullptr) {
+    return to_array(state->given_points());
+  }
   const double* first = count == 0 ? nullptr : state->points().front().data();
   return view(first, {count, 3}, keep(state));
 }
@@ -143,22 +107,41 @@ py::array points_of_fiber(const Fibers& fibers, Py_ssize_t index) {
                           std::to_string(count));
   }
   const auto fiber = static_cast<std::size_t>(index < 0 ? index + count : index);
-  const std::uint32_t begin = state->offsets()[fiber];
-  const std::uint32_t end = state->offsets()[fiber + 1];
-  return view(state->points()[begin].data(), {static_cast<Py_ssize_t>(end - begin), 3},
-              keep(state));
+  // The repeated point of a closed fibre comes behind those that were given.
+  const std::vector<std::uint32_t>& given = state->given_offsets();
+  return view(state->points()[state->offsets()[fiber]].data(),
+              {static_cast<Py_ssize_t>(given[fiber + 1] - given[fiber]), 3}, keep(state));
 }
 
 py::array radii_of(const Fibers& fibers) {
   const Fibers::State state = fibers.state();
+  if (state->graph() != nullptr) {
+    return to_array(state->given_radii());
+  }
   return view(state->radii().data(), {static_cast<Py_ssize_t>(state->radii().size())}, keep(state));
+}
+
+/// (fibres,) of bool.
+py::array closed_of(const FiberAssembly& fibers) {
+  py::array_t<bool> closed(static_cast<Py_ssize_t>(fibers.fiber_count()));
+  for (std::size_t fiber = 0; fiber < fibers.fiber_count(); ++fiber) {
+    closed.mutable_at(static_cast<Py_ssize_t>(fiber)) = fibers.is_closed(fiber);
+  }
+  return std::move(closed);
+}
+
+/// (n,) of int32, -1 of points that are not joined.
+py::array joints_of(const FiberAssembly& fibers) {
+  std::vector<std::int32_t> joints = fibers.topology().joints;
+  joints.resize(fibers.given_offsets().back(), -1);
+  return py::array_t<std::int32_t>(static_cast<Py_ssize_t>(joints.size()), joints.data());
 }
 
 /// @throws std::invalid_argument for curves that are not of as many points each as the fibres
 void move_curves(Fibers& fibers, const py::object& list) {
   const Curves curves = to_curves(list, "points");
   const Fibers::State state = fibers.state();
-  const std::vector<std::uint32_t>& offsets = state->offsets();
+  const std::vector<std::uint32_t>& offsets = state->given_offsets();
   if (curves.offsets.size() != offsets.size()) {
     throw std::invalid_argument("points is a list of " + std::to_string(curves.offsets.size() - 1) +
                                 " curves, there are " + std::to_string(offsets.size() - 1) +
@@ -197,8 +180,9 @@ py::tuple reduce(const py::object& self) {
   const auto& fibers = self.cast<const Fibers&>();
   const Fibers::State state = fibers.state();
   const py::tuple arguments =
-      py::make_tuple(self.get_type(), to_array(state->points()), state->offsets(),
-                     to_array(state->radii()), fiber_name_list(fibers));
+      py::make_tuple(self.get_type(), to_array(state->given_points()), state->given_offsets(),
+                     to_array(state->given_radii()), fiber_name_list(fibers), closed_of(*state),
+                     joints_of(*state), state->topology().joint_tolerance);
   // Python has __getstate__ of all objects since 3.11.
   const py::object besides = py::hasattr(self, "__getstate__")
                                  ? py::object(self.attr("__getstate__")())
@@ -210,7 +194,7 @@ py::tuple reduce(const py::object& self) {
 std::string describe(const Fibers& fibers) {
   const Fibers::State state = fibers.state();
   return "<fiber_proximity.Fibers: " + std::to_string(state->fiber_count()) + " fibres of " +
-         std::to_string(state->point_count()) + " points>";
+         std::to_string(state->given_offsets().back()) + " points>";
 }
 
 }  // namespace
@@ -231,12 +215,20 @@ offsets : (fibres + 1,) of whole numbers, optional
     shape of points says.
 radii : number, (fibres,) or (n,) [m], default 0
     For a list of curves also a list: a number or (n,) for each.
+closed : bool or (fibres,) of bool, default none
+    Whether a segment leads from the last point of a fibre to its first, which is not repeated.
+joints : (n,) of whole numbers, default none
+    Points of the same number, of one fibre or several, are joined: neighbours, which have no
+    contact. Below 0: not joined. Warns (UserWarning) of a number that one point alone has.
+joint_tolerance : float [m], optional
+    How far joined points may be apart; the largest radius that meets there, if not given.
 
 Raises
 ------
 ValueError
     For a shape that is not allowed, offsets that do not fit, coordinates or radii that are not
-    finite; names fibre, point and value.
+    finite, closed fibres of less than three points, joined points that do not meet; names fibre,
+    point and value.
 TypeError
     For arrays of anything but real numbers.
 
@@ -251,12 +243,19 @@ array([[0., 1., 0.],
 >>> fibers = Fibers([np.zeros((3, 3)), np.ones((4, 3))], radii=[0.01, [0.01, 0.01, 0.02, 0.02]])
 >>> fibers.offsets
 array([0, 3, 7], dtype=uint32)
+>>> ring = Fibers([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], radii=0.01, closed=True)
+>>> ring.segment_count
+4
 )")
-      .def(py::init(
-               [](const py::object& points, const py::object& offsets, const py::object& radii) {
-                 return std::make_shared<Fibers>(make_fibers(points, offsets, radii));
-               }),
-           py::arg("points"), py::arg("offsets") = py::none(), py::arg("radii") = 0.0)
+      .def(py::init([](const py::object& points, const py::object& offsets, const py::object& radii,
+                       const py::object& closed, const py::object& joints,
+                       const py::object& joint_tolerance) {
+             return std::make_shared<Fibers>(
+                 make_fibers(points, offsets, radii, closed, joints, joint_tolerance));
+           }),
+           py::arg("points"), py::arg("offsets") = py::none(), py::arg("radii") = 0.0,
+           py::arg("closed") = py::none(), py::arg("joints") = py::none(),
+           py::arg("joint_tolerance") = py::none())
       .def("move", &move, py::arg("points"), R"(
 Moves the points, for the next frame; which fibre owns which stays, and so do the radii.
 
@@ -283,12 +282,18 @@ array([1., 1.])
           "offsets",
           [](const Fibers& fibers) {
             const Fibers::State state = fibers.state();
-            return view(state->offsets(), keep(state));
+            return view(state->given_offsets(), keep(state));
           },
           "(fibres + 1,) uint32, read-only: index of each fibre's first point, then the number of "
           "points.")
       .def_property_readonly("radii", &radii_of,
                              "(1,), (fibres,) or (n,) float64 [m], read-only: as they were given.")
+      .def_property_readonly(
+          "closed", [](const Fibers& fibers) { return closed_of(*fibers.state()); },
+          "(fibres,) of bool: whether a fibre's last segment leads to its first point.")
+      .def_property_readonly(
+          "joints", [](const Fibers& fibers) { return joints_of(*fibers.state()); },
+          "(n,) int32: points of the same number are joined; -1 of those that are not.")
       .def_property("names", &fiber_name_list, &rename_fibers,
                     "What the fibres are called, (fibres,) of str: as in the file that they were "
                     "read from, and where they are written; without names, their indices.")
@@ -296,7 +301,8 @@ array([1., 1.])
           "segment_count", [](const Fibers& fibers) { return fibers.state()->segment_count(); },
           "Number of segments of all fibres.")
       .def_property_readonly(
-          "point_count", [](const Fibers& fibers) { return fibers.state()->point_count(); },
+          "point_count",
+          [](const Fibers& fibers) { return fibers.state()->given_offsets().back(); },
           "Number of points of all fibres.")
       .def("__len__", [](const Fibers& fibers) { return fibers.state()->fiber_count(); })
       .def("__getitem__", &points_of_fiber, py::arg("fiber"),

@@ -48,10 +48,4 @@ Fibers::State to_state(const py::object& object, const char* name);
 /// @throws std::invalid_argument for a segment that there is not
 void require_segment(const FiberAssembly& fibers, std::uint32_t fiber, std::uint32_t segment);
 
-/// @param points (n, 3), or without offsets (fibres, n, 3) or a list of curves, (n, 3) each [m]
-/// @param offsets None: one fibre
-/// @param radii a number, (fibres,) or (n,); of curves also a list of a number or (n,) for each
-FiberAssembly make_fibers(const py::object& points, const py::object& offsets,
-                          const py::object& radii);
-
 }  // namespace fiber::python

@@ -7,6 +7,8 @@
 #include <limits>
 #include <numeric>
 
+#include "src/geometry/fiber_graph.hpp"
+
 namespace fiber {
 namespace {
 
@@ -130,7 +132,34 @@ struct Division {
   }
 };
 
-/// Points of a fibre that move together: equal ones in a row, and the ends of a closed fibre.
+/// Makes equal points of one joint move together, with all that moves with them.
+void unite_joints(const FiberGraph& graph, const std::vector<Vector3d>& points,
+                  std::vector<std::uint32_t>& joints) {
+  std::vector<std::uint32_t> united = joints;  // by point that leads others, what leads it
+  const auto leader_of = [&united](std::uint32_t point) {
+    while (united[point] != point) {
+      point = united[point];
+    }
+    return point;
+  };
+  for (std::uint32_t joint = 0; joint < graph.joint_count(); ++joint) {
+    const std::uint32_t first = graph.joint_points()[*graph.members(joint).begin()].point;
+    for (const std::uint32_t member : graph.members(joint)) {
+      const std::uint32_t point = graph.joint_points()[member].point;
+      if (points[point] == points[first]) {
+        const std::uint32_t x = leader_of(first);
+        const std::uint32_t y = leader_of(point);
+        united[std::max(x, y)] = std::min(x, y);
+      }
+    }
+  }
+  for (std::uint32_t& joint : joints) {
+    joint = leader_of(joint);
+  }
+}
+
+/// Points that move together: equal ones in a row, the ends of a fibre and points of a joint if
+/// they are equal.
 std::vector<std::uint32_t> find_joints(const FiberAssembly& fibers) {
   const std::vector<Vector3d>& points = fibers.points();
   std::vector<std::uint32_t> joints(points.size());
@@ -144,6 +173,9 @@ std::vector<std::uint32_t> find_joints(const FiberAssembly& fibers) {
     for (std::uint32_t i = last; i > begin && points[i] == points[begin]; --i) {
       joints[i] = begin;
     }
+  }
+  if (fibers.graph() != nullptr) {
+    unite_joints(*fibers.graph(), points, joints);
   }
   return joints;
 }
@@ -180,7 +212,8 @@ bool CrossingTest::is_pair(const Ends& ends) const {
   std::transform(ends.begin(), ends.end(), joints.begin(),
                  [this](std::uint32_t point) { return joints_[point]; });
   std::sort(joints.begin(), joints.end());
-  return std::adjacent_find(joints.begin(), joints.end()) == joints.end();
+  return std::adjacent_find(joints.begin(), joints.end()) == joints.end() &&
+         !(fibers_.graph() != nullptr && fibers_.graph()->share_joint(ends[0], ends[2]));
 }
 
 CrossingTest::Verdict CrossingTest::judge_in_doubles(const Ends& ends, Place& place) const {

@@ -53,7 +53,16 @@ FiberSource::FiberSource(const Communicator& ranks, const std::string& path,
                          const ReadOptions& reading, FrameSharing sharing)
     : ranks_(ranks), alone_(MPI_COMM_SELF), path_(path) {
   if (!is_hdf5_name(path)) {
-    run_on_root(ranks_, [&] { file_ = read_input("fiber_query_mpi", path, reading); });
+    run_on_root(ranks_, [&] {
+      file_ = read_input("fiber_query_mpi", path, reading);
+      for (const FiberFrame& frame : file_.frames) {
+        if (frame.fibers.graph() != nullptr) {
+          throw FileError(path,
+                          "has fibres that are closed or joined: fiber_query takes them, the "
+                          "ranks of MPI take open fibres only");
+        }
+      }
+    });
     has_frames_ = ranks_.broadcast(file_.has_frames);
     frame_count_ = ranks_.broadcast(file_.frames.size());
     return;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "src/accuracy/frame_order.hpp"
@@ -55,6 +56,27 @@ TEST(Resampling, FibresKeepTheirEndsAndRadii) {
   EXPECT_EQ(fewer.points().back(), fibers.points().back());
   EXPECT_EQ(fewer.radius_at(0, 0), 0.01);
   EXPECT_EQ(fewer.radius_at(1, fewer.point_count() - 1), 0.02);
+}
+
+TEST(Resampling, WhatIsJoinedStays) {
+  std::vector<Eigen::Vector3d> points;
+  std::vector<std::int32_t> joints(60, -1);
+  for (int i = 0; i < 40; ++i) {
+    points.emplace_back(std::cos(M_PI * i / 20), std::sin(M_PI * i / 20), 0.0);
+  }
+  for (int i = 0; i < 20; ++i) {
+    points.emplace_back(points[7] + 0.1 * i * Eigen::Vector3d::UnitZ());
+  }
+  joints[7] = joints[40] = 3;
+  const FiberAssembly fibers(points, {0, 40, 60}, {0.01, 0.02}, {{1, 0}, joints, {}});
+  for (const double error : {1e-3, 0.1, 10.0}) {
+    const FiberAssembly fewer = select_points(fibers, enough_points({&fibers}, error));
+    EXPECT_TRUE(fewer.is_closed(0));
+    EXPECT_GE(fewer.given_offsets()[1], 4U);
+    EXPECT_EQ(fewer.given_offsets()[2] - fewer.given_offsets()[1], 2U);
+    const std::vector<std::int32_t> kept = fewer.topology().joints;
+    EXPECT_EQ(std::count(kept.begin(), kept.end(), 3), 2);
+  }
 }
 
 TEST(Resampling, ABulgeStaysEnclosed) {

@@ -37,6 +37,57 @@ class OwnState(fp.Fibers):
         self.restored = state['kept']
 
 
+class JoinedFibersTest(unittest.TestCase):
+    """Closed and joined fibres."""
+
+    RING = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], float)
+
+    def test_what_was_given_is_there(self):
+        branch = self.RING[2] + np.outer(range(3), [0, 0, 1])
+        fibers = fp.Fibers([self.RING, branch], radii=np.arange(1, 8) / 100, closed=[True, False], joints=[-1, -1, 7, -1, 7, -1, -5])
+        for same in (fibers, fibers.copy(), copy.deepcopy(fibers), pickle.loads(pickle.dumps(fibers)), fibers.select([0, 1])):
+            np.testing.assert_array_equal(same.points, np.concatenate([self.RING, branch]))
+            np.testing.assert_array_equal(same.offsets, [0, 4, 7])
+            np.testing.assert_array_equal(same.radii, np.arange(1, 8) / 100)
+            np.testing.assert_array_equal(same.closed, [True, False])
+            np.testing.assert_array_equal(same.joints, [-1, -1, 7, -1, 7, -1, -1])
+            np.testing.assert_array_equal(same[0], self.RING)
+            self.assertEqual((same.point_count, same.segment_count), (7, 6))
+        fibers.move(fibers.points + 1)
+        np.testing.assert_array_equal(fibers[0], self.RING + 1)
+        plain = fp.Fibers([A, B])
+        np.testing.assert_array_equal(plain.closed, [False, False])
+        np.testing.assert_array_equal(plain.joints, [-1] * 7)
+
+    def test_what_is_joined_has_no_contact(self):
+        engine = fp.Engine()
+        belt = np.stack([np.cos(np.arange(40) * np.pi / 20), np.sin(np.arange(40) * np.pi / 20), np.zeros(40)], axis=1)
+        engine.update(fp.Fibers(belt, radii=0.05, closed=True))
+        self.assertEqual(len(engine.query(margin=0.1).contacts), 0)
+        engine.update(fp.Fibers(np.concatenate([belt, belt[:1]]), radii=0.05))
+        self.assertGreater(len(engine.query(margin=0.1).contacts), 0)
+        for joints, count in ((None, 1), ([-1, 0, 0, -1], 0)):
+            engine.update(fp.Fibers([[[0, 0, 0], [1, 0, 0]], [[1, 0, 0], [2, 0, 0]]], radii=0.1, joints=joints))
+            self.assertEqual(len(engine.query().contacts), count)
+
+    def test_errors_and_warnings(self):
+        for arguments, kind, words in (
+                ({'closed': [True]}, ValueError, 'closed has 1 value(s) for 2 fibre(s)'),
+                ({'closed': 'yes'}, TypeError, 'closed has the dtype'),
+                ({'joints': [1, 1]}, ValueError, 'joints has 2 value(s) for 7 points'),
+                ({'joints': [1, -1, -1, 1, -1, -1, -1]}, ValueError, 'joint 1: fibre 0, point 0 and fibre 1, point 0 are 1 m apart'),
+                ({'joints': np.arange(7.0)}, TypeError, 'joints has the dtype float64'),
+                ({'joints': [2**31] * 7}, ValueError, 'joints[0] is 2147483648, it must be below 2^31'),
+                ({'joint_tolerance': -1.0}, ValueError, 'joint_tolerance is -1 m')):
+            with self.assertRaisesRegex(kind, re.escape(words)):
+                fp.Fibers([A, B], **arguments)
+        with self.assertRaisesRegex(ValueError, 'is closed and has 2 points'):
+            fp.Fibers(A[:2], closed=True)
+        with self.assertWarnsRegex(UserWarning, re.escape('joints[3] is 5, which no other point has')):
+            fp.Fibers([A, B], joints=[-1, -1, -1, 5, -1, -1, -1])
+        fp.Fibers([A, B], joints=[1, -1, -1, 1, -1, -1, -1], joint_tolerance=1.0)
+
+
 class FibersTest(unittest.TestCase):
 
     def refuse(self, kind, words, call):

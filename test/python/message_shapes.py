@@ -93,6 +93,12 @@ class MessageShapes(unittest.TestCase):
             sent = message('FiberArray', header=header(), names=['a', 'b'], offsets=offsets,
                            points=[point(*p) for p in CURVE[:2] + CURVE], radii=radii)
             np.testing.assert_array_equal(self.expect(sent, CURVE[:2], CURVE).radii, [0.1, 0.2])
+        for closed in ([1, 0], b'\x01\x00', np.array([1, 0], 'u1')):
+            sent = message('FiberArray', header=header(), names=[], offsets=[0, 3, 5], radii=[0.1], closed=closed,
+                           joints=np.array([-1, -1, 4, 4, -1], 'i4'),
+                           points=[point(*p) for p in CURVE[:3] + CURVE[2:3] + [(9, 9, 9)]])
+            np.testing.assert_array_equal(fp.from_msg(sent).closed, [True, False])
+            np.testing.assert_array_equal(fp.from_msg(sent).joints, [-1, -1, 4, 4, -1])
         sent = message('FiberArray', header=header(), names=[], offsets=[0, 3], points=[point(*p) for p in CURVE], radii=[])
         np.testing.assert_array_equal(self.expect(sent, CURVE, default_radius=0.3).radii, [0.3])
         sent = message('FiberArray', header=header(), names=[], offsets=[0, 4], points=[point(*p) for p in CURVE], radii=[])

@@ -72,6 +72,19 @@ class Messages(unittest.TestCase):
         self.assertEqual(FiberArray().deserialize(packed(made)).radii, (0.7,))
         self.assertIn('offsets: ', str(fp.to_msg(fp.from_msg(message))))
 
+    def test_what_is_joined_comes_and_goes(self):
+        sent = FiberArray(header=Header(frame_id='world', stamp=genpy.Time(5, 6)), names=[], offsets=[0, 3, 5],
+                          points=[Point(0, 0, 0), Point(1, 0, 0), Point(1, 1, 0), Point(1, 1, 0), Point(2, 2, 0)], radii=[0.1],
+                          closed=[1, 0], joints=[-1, -1, 4, 4, -1])
+        for message in (sent, as_any(sent), FiberArray().deserialize(packed(sent))):
+            fibers = fp.from_msg(message)
+            np.testing.assert_array_equal(fibers.closed, [True, False])
+            np.testing.assert_array_equal(fibers.joints, [-1, -1, 4, 4, -1])
+            self.assertEqual(fibers.segment_count, 4)
+            self.assertEqual(packed(fp.to_msg(fibers, 'world', genpy.Time(5, 6), fibers.names)),
+                             packed(fp.to_msg(fp.from_msg(sent), 'world', genpy.Time(5, 6), fibers.names)))
+            self.assertEqual(FiberArray().deserialize(packed(fp.to_msg(fibers))).joints, (-1, -1, 4, 4, -1))
+
     def test_contacts_come_and_go(self):
         contacts = fp.Engine(fp.Fibers(*support.random_fibers(np.random.default_rng(70)))).contacts(0.3)
         self.assertGreater(len(contacts), 10)

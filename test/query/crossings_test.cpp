@@ -39,6 +39,48 @@ TEST(Crossings, OfTwoFibresSeenFromAboveAndBelow) {
   EXPECT_EQ(below[0].sign, -1);
 }
 
+/// What is joined does not cross where it is, nor if the joint's points are a little apart; a fibre
+/// that is seen to pass through a joint crosses one of its segments.
+TEST(Crossings, JointsAreNone) {
+  for (const double apart : {0.0, 0.05}) {
+    const std::vector<Vector3d> points{
+        {-1, 0, 0},  {0, 0, 0},     {1, 0, 0},  {-apart, 0, 0.1 * apart},
+        {0.2, 1, 0}, {-0.5, -1, 1}, {0.5, 1, 1}};
+    const std::vector<std::uint32_t> offsets{0, 3, 5, 7};
+    const auto count = [&](const FiberTopology& topology) {
+      std::size_t own = 0;
+      std::size_t others = 0;
+      for (const Crossing& crossing :
+           find_crossings(FiberAssembly(points, offsets, {0.1}, topology), View())) {
+        (crossing.fiber_b == 2 ? others : own) += 1;
+      }
+      return std::make_pair(own, others);
+    };
+    const auto joined = count({{}, {-1, 4, -1, 4, -1, -1, -1}, {}});
+    EXPECT_EQ(joined.first, 0U) << apart;
+    EXPECT_GE(joined.second, 1U);
+  }
+}
+
+TEST(Crossings, OfAClosedFiberAreThoseOfItsRepeatedPoints) {
+  Curve curve = trefoil(30);
+  const FiberAssembly closed(curve, {0, 30}, {0.1}, {{1}, {}, {}});
+  EXPECT_EQ(find_crossings(closed, View()).size(), 3U);
+  curve.push_back(curve.front());
+  EXPECT_EQ(find_crossings(closed, View()).size(),
+            find_crossings(FiberAssembly(curve, {0, 31}, {0.1}), View()).size());
+  const std::vector<Vector3d> stored = closed.points();
+  EXPECT_EQ(writhe(stored), writhe(curve));
+  Curve two = circle(30);
+  for (const Vector3d& point : circle(30)) {
+    two.emplace_back(1.0 + point.x(), 0.0, point.y());
+  }
+  const std::vector<LinkingNumber> linked =
+      linking_numbers(FiberAssembly(two, {0, 30, 60}, {0.1}, {{1, 1}, {}, {}}));
+  ASSERT_EQ(linked.size(), 1U);
+  EXPECT_EQ(std::abs(linked[0].value), 1);
+}
+
 TEST(Crossings, SeenFromAnEyeAreThoseInFrontOfIt) {
   const FiberAssembly fibers =
       as_fibers({{{-2, 0, 0}, {2, 0, 0}}, {{0.5, -1, 0.5}, {0.5, 3, 0.5}}});

@@ -145,8 +145,18 @@ inline JoinedFibers fork(Random& random, double angle) {
   return fibers;
 }
 
-/// A scene of one of these families.
-inline JoinedFibers random_joined_fibers(Random& random) {
+/// A chain that is joined with nothing and begins near a point of the others.
+inline void add_stranger(JoinedFibers& fibers, Random& random) {
+  const auto near =
+      static_cast<std::size_t>(random.integer(0, static_cast<int>(fibers.points.size()) - 1));
+  Curve chain{fibers.points[near] + random.in_cube(0.3)};
+  for (int i = random.integer(1, 12); i > 0; --i) {
+    chain.push_back(chain.back() + 0.2 * random.direction());
+  }
+  fibers.add(chain, random.uniform(0.02, 0.2));
+}
+
+inline JoinedFibers random_family(Random& random) {
   constexpr double degree = turn / 360.0;
   switch (random.integer(0, 3)) {
     case 0:
@@ -158,6 +168,15 @@ inline JoinedFibers random_joined_fibers(Random& random) {
     default:
       return fork(random, degree * random.uniform(5.0, 175.0));
   }
+}
+
+/// A scene of one of these families, with strangers.
+inline JoinedFibers random_joined_fibers(Random& random) {
+  JoinedFibers fibers = random_family(random);
+  for (int i = random.integer(0, 2); i > 0; --i) {
+    add_stranger(fibers, random);
+  }
+  return fibers;
 }
 
 }  // namespace fiber::test

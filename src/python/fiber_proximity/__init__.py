@@ -56,11 +56,11 @@ def __getattr__(name):
     return value
 
 
-def _restore_fibers(kind, points, offsets, radii, names):
+def _restore_fibers(kind, points, offsets, radii, names, closed=None, joints=None, joint_tolerance=None):
     """Fibers of a class, as copy and pickle make them: without the constructor of a subclass."""
     fibers_class = __getattr__('Fibers')
     fibers = fibers_class.__new__(kind)
-    fibers_class.__init__(fibers, points, offsets, radii)
+    fibers_class.__init__(fibers, points, offsets, radii, closed, joints, joint_tolerance)
     fibers_class.names.__set__(fibers, names)
     return fibers
 

@@ -87,7 +87,10 @@ def _from_fibers(message, default_radius):
     offsets = reader.list('<u4')
     points = reader.list(np.dtype(_POINT))
     radii = reader.list('<f8')
-    return point_messages.named(Fibers(points, offsets, radii if radii.size else default_radius), names)
+    closed = reader.list('u1')
+    joints = reader.list('<i4')
+    return point_messages.named(Fibers(points, offsets, radii if radii.size else default_radius,
+                                       **point_messages.topology_of(closed, joints)), names)
 
 
 def _read_gradients(reader, count):
@@ -261,7 +264,8 @@ def _fibers_to_msg(fibers, header, names):
     from fiber_proximity.msg import FiberArray
     _check_names(names, len(fibers))
     body = (_packed_texts(names) + _packed(fibers.offsets, '<u4') + _packed(fibers.points, '<f8') +
-            _packed(fibers.radii, '<f8'))
+            _packed(fibers.radii, '<f8') + _packed(fibers.closed if fibers.closed.any() else (), 'u1') +
+            _packed(fibers.joints if (fibers.joints >= 0).any() else (), '<i4'))
     return _make_packed(FiberArray, header, body)
 
 

@@ -22,10 +22,19 @@ def named(fibers, names):
     return fibers
 
 
+def topology_of(closed, joints):
+    """Arguments of Fibers that say what is joined; those that are empty say nothing. uint8[] may be bytes."""
+    closed = np.frombuffer(bytes(closed), np.uint8)
+    joints = np.asarray(joints, dtype=np.int64)
+    return {**({'closed': closed != 0} if closed.size else {}), **({'joints': joints} if joints.size else {})}
+
+
 def _from_fiber_array(message, default_radius):
     radii = np.asarray(message.radii, dtype=float)
     return named(Fibers(positions(message.points), np.asarray(message.offsets, dtype=np.int64),
-                        radii if radii.size else default_radius), getattr(message, 'names', ()))
+                        radii if radii.size else default_radius,
+                        **topology_of(getattr(message, 'closed', ()), getattr(message, 'joints', ()))),
+                 getattr(message, 'names', ()))
 
 
 def _from_cloud(cloud, default_radius):
