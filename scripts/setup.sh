@@ -58,7 +58,7 @@ packages=(
   librostest-dev python3-rostest python3-roslaunch python3-rostopic python3-rosservice
   python3-rosnode python3-rosparam python3-rosmsg python3-rosbag
   rviz librviz-dev qtbase5-dev xvfb xauth imagemagick x11-utils xdotool libgl1-mesa-dri
-  libeigen3-dev libtbb-dev libhwy-dev libfcl-dev libassimp-dev
+  libeigen3-dev libtbb-dev libhwy-dev libfcl-dev libassimp-dev libtinyxml2-dev zlib1g-dev
   pybind11-dev python3-dev python3-pip python3-setuptools python3-venv python3-wheel
   libcli11-dev nlohmann-json3-dev libyaml-cpp-dev libboost-dev libgmp-dev libgtest-dev
 )

@@ -17,8 +17,9 @@ struct CsvColumns {
 
   /// Names the expected columns, as an error does.
   static constexpr const char* rule =
-      "expected the columns x, y, z and, where there are any, frame, fiber, radius, closed, joint "
-      "(or a name that ends in .hair)";
+      "expected the columns x, y, z, if any frame, fiber, radius, closed, joint (or a name that "
+      "ends "
+      "as its format)";
 
   char separator = ',';
   std::size_t count = 0;                    ///< of all columns

@@ -62,14 +62,20 @@ std::filesystem::path frame_path(const std::string& path, std::int64_t frame) {
 }  // namespace
 
 void write_vtp(std::ostream& stream, const FiberAssembly& fibers) {
-  const std::size_t points = fibers.point_count();
+  const FiberTopology topology = fibers.topology();
+  const std::vector<std::uint32_t>& given = fibers.given_offsets();
+  const std::size_t points = given.back();
   const std::size_t lines = fibers.fiber_count();
   std::vector<std::size_t> fiber_of(points);
   for (std::size_t fiber = 0; fiber < lines; ++fiber) {
-    for (std::size_t i = fibers.offsets()[fiber]; i < fibers.offsets()[fiber + 1]; ++i) {
+    for (std::size_t i = given[fiber]; i < given[fiber + 1]; ++i) {
       fiber_of[i] = fiber;
     }
   }
+  // The point of a fibre as it is stored, where closed fibres have their first one again.
+  const auto stored = [&](std::size_t i) {
+    return i + (fibers.offsets()[fiber_of[i]] - given[fiber_of[i]]);
+  };
   stream << "<?xml version=\"1.0\"?>\n"
             "<VTKFile type=\"PolyData\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
             "<PolyData>\n<Piece NumberOfPoints=\""
@@ -77,14 +83,18 @@ void write_vtp(std::ostream& stream, const FiberAssembly& fibers) {
          << "\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n<PointData Scalars=\"radius\">\n";
   write_array(stream, "type=\"Float64\" Name=\"radius\"", points,
               [&](std::string& text, std::size_t i) {
-                append_number(text, fibers.radius_at(fiber_of[i], i));
+                append_number(text, fibers.radius_at(fiber_of[i], stored(i)));
               });
   write_array(stream, "type=\"Int64\" Name=\"fiber\"", points,
               [&](std::string& text, std::size_t i) { append_number(text, fiber_of[i]); });
+  if (!topology.joints.empty()) {
+    write_array(stream, "type=\"Int32\" Name=\"joint\"", points,
+                [&](std::string& text, std::size_t i) { append_number(text, topology.joints[i]); });
+  }
   stream << "</PointData>\n<Points>\n";
   write_array(stream, "type=\"Float64\" NumberOfComponents=\"3\"", points,
               [&](std::string& text, std::size_t i) {
-                const Eigen::Vector3d& point = fibers.points()[i];
+                const Eigen::Vector3d& point = fibers.points()[stored(i)];
                 for (const double coordinate : {point.x(), point.y(), point.z()}) {
                   append_number(text, coordinate);
                   text += ' ';
@@ -92,7 +102,14 @@ void write_vtp(std::ostream& stream, const FiberAssembly& fibers) {
               });
   stream << "</Points>\n<Lines>\n";
   write_array(stream, "type=\"Int64\" Name=\"connectivity\"", points,
-              [](std::string& text, std::size_t i) { append_number(text, i); });
+              [&](std::string& text, std::size_t i) {
+                append_number(text, i);
+                const std::size_t fiber = fiber_of[i];
+                if (i + 1 == given[fiber + 1] && fibers.is_closed(fiber)) {
+                  text += '\n';
+                  append_number(text, given[fiber]);  // a closed line ends where it begins
+                }
+              });
   write_array(
       stream, "type=\"Int64\" Name=\"offsets\"", lines,
       [&](std::string& text, std::size_t i) { append_number(text, fibers.offsets()[i + 1]); });
@@ -132,10 +149,18 @@ FiberFile read_fibers(const std::string& path, const ReadOptions& options) {
   switch (format_of(path)) {
     case FileFormat::HAIR:
       return read_hair(stream, path, options);
+    case FileFormat::NPZ:
+      return read_npz(stream, path, options);
+    case FileFormat::SWC:
+      return read_swc(stream, path, options);
     case FileFormat::TCK:
       return read_tck(stream, path, options);
     case FileFormat::TRK:
       return read_trk(stream, path, options);
+    case FileFormat::VTK:
+      return read_vtk(stream, path, options);
+    case FileFormat::VTP:
+      return read_vtp(stream, path, options);
     default:
       return read_csv(stream, path, options);
   }

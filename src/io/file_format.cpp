@@ -23,9 +23,9 @@ struct KnownFormat {
 };
 
 constexpr const char* what_is_read =
-    "CSV, .hair, .tck and .trk are read, and .h5 by fiber_query_mpi";
+    "CSV, .hair, .npz, .swc, .tck, .trk, .vtk and .vtp are read, and .h5 by fiber_query_mpi";
 constexpr const char* what_is_written =
-    "CSV, .hair, .pvd, .tck, .trk and .vtp are written, and .h5 by fiber_query_mpi convert";
+    "CSV, .hair, .npz, .pvd, .tck, .trk and .vtp are written, and .h5 by fiber_query_mpi convert";
 
 /// Names that mean none of these are taken for CSV, so a format that people have fibres in, or take
 /// such a name for, has a line here.
@@ -38,12 +38,14 @@ const std::vector<KnownFormat>& known_formats() {
       {FileFormat::TRK, "TrackVis's tracks", {".trk"}, {"TRACK\0"sv}, true, true},
       {FileFormat::HDF5, "HDF5", {".h5", ".hdf5", ".hdf", ".vtkhdf"}, {"\x89HDF"}},
       {FileFormat::PVD, "a collection of VTK", {".pvd"}, {}, false, true},
-      {FileFormat::VTP, "VTK", {".vtp"}, {}, false, true},
+      {FileFormat::VTP, "VTK", {".vtp"}, {"<?xml", "<VTKFile"}, true, true},
+      {FileFormat::VTK, "VTK", {".vtk"}, {"# vtk"}, true, false},
       {FileFormat::JSON, "JSON", {".json", ".jsonl"}, {"{", "["}},
-      {FileFormat::OTHER, "VTK", {".vtk", ".vtu"}, {"# vtk", "<?xml", "<VTKFile"}},
-      {FileFormat::OTHER, "NumPy", {".npy", ".npz"}, {"\x93NUMPY"}},
+      {FileFormat::OTHER, "VTK", {".vtu"}, {}},
+      {FileFormat::OTHER, "NumPy", {".npy"}, {"\x93NUMPY"}},
+      {FileFormat::NPZ, "NumPy's archive", {".npz"}, {}, true, true},
       {FileFormat::OTHER, "tractography", {".trx"}, {}},
-      {FileFormat::OTHER, "SWC", {".swc"}, {}},
+      {FileFormat::SWC, "SWC", {".swc"}, {}, true, false},
       {FileFormat::OTHER, "XYZ", {".xyz"}, {}},
       {FileFormat::OTHER, "PLY", {".ply"}, {"ply"}},
       {FileFormat::OTHER, "OBJ", {".obj"}, {}},

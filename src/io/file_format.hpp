@@ -14,6 +14,9 @@ enum class FileFormat {
   HAIR,  ///< one frame, as all of other programs
   TCK,
   TRK,
+  NPZ,
+  SWC,    ///< read only
+  VTK,    ///< of poly data, read only
   VTP,    ///< of ParaView
   PVD,    ///< for ParaView, written only
   HDF5,   ///< by the tools that run over ranks

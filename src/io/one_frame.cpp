@@ -14,6 +14,9 @@ namespace fiber {
 namespace {
 
 bool has_places_of_radii(FileFormat format) { return format != FileFormat::TCK; }
+bool has_places_of_graphs(FileFormat format) {
+  return format == FileFormat::NPZ || format == FileFormat::VTP;
+}
 
 }  // namespace
 
@@ -22,6 +25,9 @@ std::string encoded(FileFormat format, const FiberFile& file) {
   switch (format) {
     case FileFormat::HAIR:
       write_hair(stream, file);
+      break;
+    case FileFormat::NPZ:
+      write_npz(stream, file);
       break;
     case FileFormat::TCK:
       write_tck(stream, file);
@@ -44,7 +50,7 @@ std::vector<std::string> losses(FileFormat format, const FiberFrame& frame) {
   if (has_radii(frame.fibers) && !has_places_of_radii(format)) {
     lost.emplace_back("the format has no radii: fibres are only their axes");
   }
-  if (frame.fibers.graph() != nullptr && format != FileFormat::VTP) {
+  if (frame.fibers.graph() != nullptr && !has_places_of_graphs(format)) {
     lost.emplace_back(
         "the format has no closed or joined fibres: rings are chains that end where they begin");
   }

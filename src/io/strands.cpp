@@ -1,5 +1,7 @@
 #include "src/io/strands.hpp"
 
+#include <algorithm>
+#include <stdexcept>
 #include <utility>
 
 #include "src/io/radii.hpp"
@@ -13,6 +15,8 @@ std::size_t skip_single_points(Strands& strands) {
   const std::size_t count = strands.count();
   const bool is_per_point = !strands.radii.empty() && strands.radius_per == RadiusPer::POINT;
   const bool is_per_strand = !strands.radii.empty() && strands.radius_per == RadiusPer::FIBER;
+  std::vector<std::uint8_t>& closed = strands.topology.closed;
+  std::vector<std::int32_t>& joints = strands.topology.joints;
   std::size_t strand_count = 0;
   std::uint32_t point_count = 0;
   std::uint32_t begin = 0;
@@ -24,15 +28,23 @@ std::size_t skip_single_points(Strands& strands) {
         if (is_per_point) {
           strands.radii[point_count] = strands.radii[i];
         }
+        if (!joints.empty()) {
+          joints[point_count] = joints[i];
+        }
       }
       if (is_per_strand) {
         strands.radii[strand_count] = strands.radii[strand];
+      }
+      if (!closed.empty()) {
+        closed[strand_count] = closed[strand];
       }
       strands.offsets[++strand_count] = point_count;
     }
     begin = end;
   }
   strands.points.resize(point_count);
+  joints.resize(joints.empty() ? 0 : point_count);
+  closed.resize(closed.empty() ? 0 : strand_count);
   strands.offsets.resize(strand_count + 1);
   if (is_per_point || is_per_strand) {
     strands.radii.resize(is_per_point ? point_count : strand_count);
@@ -74,10 +86,21 @@ FiberFile to_file(Strands strands, const ReadOptions& options, const std::string
   if (strands.radii.empty()) {
     strands.radii.push_back(options.default_radius);
   }
-  return {false,
-          {{0, FiberAssembly(std::move(strands.points), std::move(strands.offsets),
-                             shared_if_equal(std::move(strands.radii)))}},
-          std::move(strands.notes)};
+  std::vector<std::uint8_t>& closed = strands.topology.closed;
+  if (std::count(closed.begin(), closed.end(), 0) == static_cast<std::ptrdiff_t>(closed.size())) {
+    closed.clear();
+  }
+  if (const auto lonely = lonely_joints(strands.topology.joints); !lonely.empty()) {
+    strands.notes.push_back("joint " + text_of(lonely.front().joint) +
+                            " joins nothing: one point alone has it");
+  }
+  try {
+    FiberAssembly fibers(std::move(strands.points), std::move(strands.offsets),
+                         shared_if_equal(std::move(strands.radii)), strands.topology);
+    return {false, {{0, std::move(fibers)}}, std::move(strands.notes)};
+  } catch (const std::invalid_argument& error) {
+    throw FileError(name, error.what());  // all but joints and closed fibres was checked before
+  }
 }
 
 bool is_radius_name(std::string_view name) {

@@ -18,6 +18,7 @@ struct Strands {
   std::vector<std::uint32_t> offsets{0};  // as those of FiberAssembly
   std::vector<double> radii;              // [m] as many as radius_per says, or none
   RadiusPer radius_per = RadiusPer::POINT;
+  FiberTopology topology;  // closed by strand and joints by point, where there are any
   std::vector<std::string> notes;
 
   std::size_t count() const { return offsets.size() - 1; }

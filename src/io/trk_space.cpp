@@ -33,16 +33,15 @@ void read_order(std::string_view order, Direction (&directions)[3]) {
   }
 }
 
-/// The axes of the space that those of voxels are nearest to.
+/// The axes of the space that those of voxels are nearest to, the first one first, as nibabel
+/// chooses them.
 void nearest_axes(const Eigen::Matrix3d& matrix, Direction (&directions)[3]) {
   Eigen::Matrix3d left = matrix.colwise().normalized().cwiseAbs();
-  for (int round = 0; round < 3; ++round) {
+  for (int column = 0; column < 3; ++column) {
     int axis = 0;
-    int column = 0;
-    left.maxCoeff(&axis, &column);
+    left.col(column).maxCoeff(&axis);
     directions[column] = {axis, matrix(axis, column) < 0.0};
     left.row(axis).setConstant(-1.0);
-    left.col(column).setConstant(-1.0);
   }
 }
 

@@ -20,7 +20,7 @@ struct TrkSpace {
 /// From the points of a file, which count from the corner of the first voxel [mm], to the space of
 /// vox_to_ras [mm].
 /// @param space has a matrix
-/// @throws std::invalid_argument for a voxel order that is none, or axes that cannot be told apart
+/// @throws std::invalid_argument for a voxel order that is none
 Eigen::Affine3d ras_of_points(const TrkSpace& space);
 
 }  // namespace fiber

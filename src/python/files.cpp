@@ -128,10 +128,14 @@ void bind_files(py::module& module) {
   });
   module.def("read", &read, py::arg("path"), py::arg("default_radius") = 0.0,
              py::arg("skip_single_points") = false, R"(
-Reads a file of fibres at one moment: .csv, .hair, .tck or .trk, as its name ends.
+Reads a file of fibres at one moment: .csv, .hair, .npz, .swc, .tck, .trk, .vtk or
+.vtp, as its name ends.
 
-Tractograms (.tck, .trk) are in millimetres and become metres; .hair states no unit and is taken as
-metres. CSV has a header with the columns x, y, z and, where there are any, fiber (names), frame and radius,
+Tractograms (.tck, .trk) are in millimetres, trees of neurons (.swc) in micrometres, and become
+metres; .hair, .vtk and .vtp state no unit
+and are taken as metres. Lines of VTK that end where they begin are closed, points that they share
+are joints, as are branches of .swc. An .npz archive has the arrays points, offsets and, where there
+are any, radii, closed and joints. CSV has a header with the columns x, y, z and, where there are any, fiber (names), frame and radius,
 in any order, separated by commas, semicolons, tabs or blanks. A warning names others.
 
 Parameters
@@ -160,7 +164,8 @@ ValueError
              "Reads a file with frames (a CSV file with a column `frame`): a list of "
              "(number, Fibers). A file without numbers has one frame, 0. Raises as ``read()``.");
   module.def("write", &write, py::arg("path"), py::arg("fibers"), R"(
-Writes fibres to a file, as its name ends: .csv, .hair, .tck, .trk, .vtp, or .pvd for ParaView.
+Writes fibres to a file, as its name ends: .csv, .hair, .npz, .tck, .trk, .vtp, or .pvd for
+ParaView.
 Numbers read back as the same, but for .hair, .tck and .trk, which have single precision; .tck and
 .trk are written in millimetres, as those formats are. Only CSV has names of fibres, and .tck has no
 radii: a warning tells what is lost.

@@ -23,7 +23,7 @@
 namespace fiber {
 namespace {
 
-constexpr const char* ends_of_out = ".h5, .csv, .hair, .tck, .trk or .vtp";
+constexpr const char* ends_of_out = ".h5, .csv, .hair, .npz, .tck, .trk or .vtp";
 
 struct ConvertRequest {
   std::string in;

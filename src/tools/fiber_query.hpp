@@ -41,7 +41,9 @@ void add_sweep(CLI::App& app, Command& command);
 void add_topology(CLI::App& app, Command& command);
 
 constexpr const char* file_help =
-    "fibre file: .hair, .tck or .trk, or CSV with the columns x, y, z and where there are any frame, fiber (a "
+    "fibre file: .hair, .npz, .swc, .tck, .trk, .vtk or .vtp, or CSV with the columns x, y, z and "
+    "where there "
+    "are any frame, fiber (a "
     "name, which answers repeat) and radius";
 constexpr const char* threads_help = "most threads to use, 0 for as many as there are cores";
 

@@ -230,7 +230,8 @@ TEST(CsvShapes, ACommentThatCouldBeARowIsRefused) {
 
 TEST(CsvShapes, OtherFormatsAreKnownByTheirFirstBytes) {
   const std::string rest =
-      ", by its name CSV; CSV, .hair, .tck and .trk are read, and .h5 by fiber_query_mpi";
+      ", by its name CSV; CSV, .hair, .npz, .swc, .tck, .trk, .vtk and .vtp are read, and .h5 by "
+      "fiber_query_mpi";
   EXPECT_EQ(error_in_shape("\x89HDF\r\n\x1A\n"), "shape.csv:1: is HDF5" + rest);
   EXPECT_EQ(error_in_shape("<?xml version=\"1.0\"?>\n"), "shape.csv:1: is VTK" + rest);
   EXPECT_EQ(error_in_shape("# vtk DataFile Version 3.0\na title\nASCII\n"),

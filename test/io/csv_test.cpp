@@ -81,10 +81,8 @@ TEST(ReadCsv, AcceptsAFileOfNoFibers) {
 
 TEST(ReadCsv, RefusesABadHeader) {
   const std::string rule =
-      ", expected the columns x, y, z and, where there are any, frame, fiber, radius, closed, "
-      "joint (or a name "
-      "that "
-      "ends in .hair)";
+      ", expected the columns x, y, z, if any frame, fiber, radius, closed, joint (or a name that "
+      "ends as its format)";
   EXPECT_EQ(refusal(""), "a.csv: is empty" + rule);
   EXPECT_EQ(refusal("# only a comment\n"), "a.csv: is empty" + rule);
   EXPECT_EQ(refusal("\n0,0,0,0\n"), "a.csv:2: the header is '0,0,0,0'" + rule);

@@ -63,9 +63,8 @@ TEST(CsvTopology, WhatIsWrongIsNamed) {
   const std::string header = "fiber,x,y,z,closed,joint\n";
   EXPECT_EQ(error_in_topology(header + "a,0,0,0,yes,\na,1,0,0,1,\n"),
             "net.csv:2: closed is 'yes', expected 0 or 1");
-  EXPECT_EQ(
-      error_in_topology(header + "a,0,0,0,0,1.5\na,1,0,0,0,\n"),
-      "net.csv:2: joint is '1.5', expected a whole number below 2147483648, or nothing");
+  EXPECT_EQ(error_in_topology(header + "a,0,0,0,0,1.5\na,1,0,0,0,\n"),
+            "net.csv:2: joint is '1.5', expected a whole number below 2147483648, or nothing");
   EXPECT_EQ(error_in_topology(header + "a,0,0,0,1,\na,1,0,0,1,\na,0,1,0,0,\n"),
             "net.csv: fibre 'a' is closed in some of its rows and open in others, closed must be "
             "the same in all");

@@ -14,7 +14,7 @@ namespace {
 
 const FiberAssembly fibers({{1, 2, 3}, {4, 5, 6}}, {0, 2}, {0.5});
 
-const std::vector<std::string> one_frame_formats{"hair", "tck", "trk"};
+const std::vector<std::string> one_frame_formats{"hair", "npz", "tck", "trk", "vtp"};
 
 class FiberFileTest : public testing::Test {
  protected:
@@ -89,9 +89,11 @@ TEST_F(FiberFileTest, NamesOfOtherFormatsAreRefused) {
   const auto writing = [&](const std::string& name) {
     return error([&] { write_fibers(path(name), {false, {{0, fibers}}}); });
   };
-  const std::string read = "; CSV, .hair, .tck and .trk are read, and .h5 by fiber_query_mpi";
+  const std::string read =
+      "; CSV, .hair, .npz, .swc, .tck, .trk, .vtk and .vtp are read, and .h5 by fiber_query_mpi";
   const std::string written =
-      "; CSV, .hair, .pvd, .tck, .trk and .vtp are written, and .h5 by fiber_query_mpi convert";
+      "; CSV, .hair, .npz, .pvd, .tck, .trk and .vtp are written, and .h5 by fiber_query_mpi "
+      "convert";
   EXPECT_EQ(reading("a.h5"), path("a.h5") + ": is HDF5 by its name" + read);
   EXPECT_EQ(writing("a.h5"), "'" + path("a.h5") + "' is a name of HDF5" + written);
   EXPECT_EQ(writing("A.VTU"), "'" + path("A.VTU") + "' is a name of VTK" + written);

@@ -120,10 +120,40 @@ inline FiberAssembly random_fibers(Random& random) {
   return {points, offsets, radii};
 }
 
+/// Random fibres of which some are closed, and some points are joined.
+inline FiberAssembly random_graph(Random& random) {
+  const FiberAssembly chains = random_fibers(random);
+  std::vector<Eigen::Vector3d> points = chains.points();
+  FiberTopology topology;
+  for (std::size_t fiber = 0; fiber < chains.fiber_count(); ++fiber) {
+    const bool can_close = chains.offsets()[fiber + 1] - chains.offsets()[fiber] > 2;
+    topology.closed.push_back(can_close && random.chance(0.5) ? 1 : 0);
+  }
+  if (std::count(topology.closed.begin(), topology.closed.end(), 1) == 0) {
+    topology.closed.clear();
+  }
+  topology.joints.resize(points.size(), -1);
+  for (int joint = random.integer(0, 3); joint > 0 && !points.empty(); --joint) {
+    const int last = static_cast<int>(points.size()) - 1;
+    const auto first = static_cast<std::size_t>(random.integer(0, last));
+    const auto other = static_cast<std::size_t>(random.integer(0, last));
+    if (first != other && topology.joints[first] < 0 && topology.joints[other] < 0) {
+      points[other] = points[first];
+      topology.joints[first] = topology.joints[other] = joint;
+    }
+  }
+  if (std::count_if(topology.joints.begin(), topology.joints.end(),
+                    [](int joint) { return joint >= 0; }) == 0) {
+    topology.joints.clear();
+  }
+  return {points, chains.offsets(), chains.radii(), topology};
+}
+
 /// Sees that fibres are the same, their radii at each point.
 inline void expect_same_fibers(const FiberAssembly& fibers, const FiberAssembly& expected) {
   EXPECT_EQ(fibers.points(), expected.points());
   ASSERT_EQ(fibers.offsets(), expected.offsets());
+  EXPECT_TRUE(fibers.has_topology_of(expected));
   for (std::size_t fiber = 0; fiber < expected.fiber_count(); ++fiber) {
     for (std::size_t i = expected.offsets()[fiber]; i < expected.offsets()[fiber + 1]; ++i) {
       ASSERT_EQ(fibers.radius_at(fiber, i), expected.radius_at(fiber, i)) << i;

@@ -106,7 +106,7 @@ expect_refused "--resume: what went to 'pipe', which is no file," fiber_query_mp
 
 # ---- convert, to formats of other programs and back; what they have no place for is told
 run 2 fiber_query_mpi convert one.csv one.h5
-for end in tck trk; do
+for end in npz tck trk vtp; do
   run 2 fiber_query_mpi convert one.h5 other.$end 2>told.txt
   grep -q "other.$end: the format has no names" told.txt || fail "names are lost without a word: $end"
   run 2 fiber_query_mpi convert other.$end back.csv

@@ -105,7 +105,7 @@ class Files(unittest.TestCase):
 
     def test_formats_of_other_programs(self):
         fibers = fp.Fibers(*support.random_fibers(np.random.default_rng(62), radii='fiber'))
-        for end in ('tck', 'trk'):
+        for end in ('npz', 'tck', 'trk', 'vtp'):
             path = self.path('a.' + end)
             with warnings.catch_warnings(record=True) as caught:
                 warnings.simplefilter('always')
@@ -114,10 +114,33 @@ class Files(unittest.TestCase):
             lost = [f'{path}: the format has no radii: fibres are only their axes'] if end == 'tck' else []
             self.assertEqual([str(warning.message) for warning in caught], lost)
             millimetres = (1000 * fibers.points).astype('f4').astype('f8')
-            np.testing.assert_array_equal(again.points, millimetres / 1000)
+            np.testing.assert_array_equal(again.points, fibers.points if end in ('npz', 'vtp') else millimetres / 1000)
             np.testing.assert_array_equal(again.offsets, fibers.offsets)
             if end == 'tck':
                 np.testing.assert_array_equal(again.radii, 0.25)
+
+    def test_numpy_reads_and_writes_the_same_archives(self):
+        points, offsets, radii = support.random_fibers(np.random.default_rng(63), radii='point')
+        fp.write(self.path('a.npz'), fp.Fibers(points, offsets, radii))
+        with np.load(self.path('a.npz')) as arrays:
+            self.assertEqual(sorted(arrays), ['offsets', 'points', 'radii'])
+            np.testing.assert_array_equal(arrays['points'], points)
+            np.testing.assert_array_equal(arrays['offsets'], offsets)
+            np.testing.assert_array_equal(arrays['radii'], radii)
+        for save in np.savez, np.savez_compressed:
+            save(self.path('b.npz'), points=np.asfortranarray(points), offsets=offsets, radii=radii, more=points)
+            with self.assertWarnsRegex(UserWarning, "arrays not read: 'more'"):
+                fibers = fp.read(self.path('b.npz'))
+            np.testing.assert_array_equal(fibers.points, points)
+            np.testing.assert_array_equal(fibers.offsets, offsets)
+            np.testing.assert_array_equal(fibers.radii, radii)
+
+    def test_trees_of_neurons(self):
+        with open(self.path('a.swc'), 'w', encoding='utf-8') as file:
+            file.write('1 3 0 0 0 1 -1\n2 3 9 0 0 1 1\n3 3 9 9 0 1 2\n4 3 9 -9 0 2 2\n')
+        fibers = fp.read(self.path('a.swc'))
+        np.testing.assert_array_equal(fibers.offsets, [0, 2, 4, 6])
+        np.testing.assert_array_equal(fibers.points[-1], [9e-6, -9e-6, 0])
 
     def test_fibers_of_one_point(self):
         with open(self.path('a.csv'), 'w', encoding='utf-8') as file:

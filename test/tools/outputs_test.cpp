@@ -64,7 +64,8 @@ TEST_F(Outputs, DevicesAreWrittenTo) {
 
 TEST_F(Outputs, NamesOfOtherFormatsAreRefused) {
   const std::string written =
-      "; CSV, .hair, .pvd, .tck, .trk and .vtp are written, and .h5 by fiber_query_mpi convert";
+      "; CSV, .hair, .npz, .pvd, .tck, .trk and .vtp are written, and .h5 by fiber_query_mpi "
+      "convert";
   for (const std::string end : {"h5", "vtu", "trx", "npy", "json"}) {
     const std::string out = path("out." + end);
     EXPECT_TRUE(refused(run_process(soup_to(out)), "'" + out + "' is a name of "));
@@ -78,9 +79,9 @@ TEST_F(Outputs, NamesOfOtherFormatsAreRefused) {
                       "a .tck file cannot hold this: it holds exactly 1 frame without a number, "
                       "not frames with numbers"));
   EXPECT_FALSE(std::filesystem::exists(path("out.csv"))) << "before anything is written";
-  EXPECT_TRUE(refused(
-      query("contacts " + path("a.h5")),
-      ": is HDF5 by its name; CSV, .hair, .tck and .trk are read, and .h5 by fiber_query_mpi"));
+  EXPECT_TRUE(refused(query("contacts " + path("a.h5")),
+                      ": is HDF5 by its name; CSV, .hair, .npz, .swc, .tck, .trk, .vtk and .vtp "
+                      "are read, and .h5 by fiber_query_mpi"));
 }
 
 }  // namespace

@@ -1,0 +1,7 @@
+// Archives of numpy's arrays; what is read is written and read again as the same.
+#include "fiber_proximity/io/fiber_formats.hpp"
+#include "test/fuzz/format.hpp"
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  return fiber::test::fuzz_format(fiber::read_npz, fiber::write_npz, data, size, 2000);
+}

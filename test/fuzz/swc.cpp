@@ -1,0 +1,7 @@
+// Trees of neurons.
+#include "fiber_proximity/io/fiber_formats.hpp"
+#include "test/fuzz/format.hpp"
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  return fiber::test::fuzz_format(fiber::read_swc, nullptr, data, size);
+}
