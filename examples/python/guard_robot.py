@@ -1,11 +1,13 @@
 #!/usr/bin/python3
-"""Stops a robot unless the proximity node's answers say that no cable is near what is around it.
+"""Stops a robot unless the proximity node's answers say that no cable is near what is around it, nor will be soon.
 
-It fails closed: whatever is not certain is a reason to stop. docs/tutorials/stop_the_robot.md shows it at work.
+It fails closed: whatever is not certain is a reason to stop. docs/tutorials/stop_the_robot.md shows it at work, and
+docs/tutorials/guard_a_gripper.md with `time`.
 
 Parameters:
   ~distance      [m] required: it stops where the true distance may be smaller
   ~timeout (0.5) [s] it stops where no answer has come for so long, or the newest is of a moment so long ago
+  ~time (0)      [s] it stops where something may touch within this time, as ~time_to_contact says; 0: it does not ask
   ~node (/proximity)      the node whose ~environment_contacts it listens to
   ~among_fibers (false)   to its ~contacts as well: cables near each other or themselves stop the robot, too
   ~objects ([])  names that must be among those of the answers, such as [robot/tool]
@@ -20,13 +22,13 @@ import threading
 import time
 
 import rospy
-from fiber_proximity.msg import Contact, ContactArray
+from fiber_proximity.msg import Contact, ContactArray, TimeToContact
 from std_msgs.msg import Bool
 from std_srvs.srv import Trigger, TriggerResponse
 
 PERIOD = 0.05  # [s] of ~stop
 RETRY_AFTER = 0.5  # [s] the service that did not stop the robot is called again
-PARAMETERS = 'distance', 'timeout', 'node', 'among_fibers', 'objects', 'hold', 'service'
+PARAMETERS = 'distance', 'timeout', 'time', 'node', 'among_fibers', 'objects', 'hold', 'service'
 REQUIRED = object()
 
 
@@ -63,10 +65,17 @@ def name_of(answer, contact):
     return f'{answer.fiber_names[contact.fiber_a]} and {names[contact.fiber_b]}'
 
 
+def lack(answer):
+    """What an answer does not know; None if it knows all."""
+    if answer.complete and not answer.unknown:
+        return None
+    return 'not complete: ' + ('; '.join(answer.unknown) or 'it does not say why')
+
+
 def objection(answer, distance, objects, is_about_objects):
     """Why no robot may move after this answer; None if it may."""
-    if not answer.complete or answer.unknown:
-        return 'not complete: ' + ('; '.join(answer.unknown) or 'it does not say why')
+    if lack(answer):
+        return lack(answer)
     for name in objects:
         if name not in answer.object_names:
             return f'{name} is not among the objects'
@@ -84,6 +93,25 @@ def objection(answer, distance, objects, is_about_objects):
     return None
 
 
+def objection_to_times(answer, time, among_fibers):
+    """Why no robot may move after this prediction; None if it may."""
+    if lack(answer):
+        return lack(answer)
+    if not answer.fiber_names:
+        return 'there are no cables'
+    if not answer.horizon >= time:
+        return f'it looks {answer.horizon:g} s ahead, ~prediction must be at least {time:g} s'
+    parts = [('a cable and an object', answer.environment)]
+    if among_fibers:
+        parts += [('two cables', answer.different_fibers), ('a cable and itself', answer.same_fiber)]
+    for pair, told in parts:
+        if told.touching:  # these are not predicted
+            return f'{pair} are within the margin of {1e3 * answer.margin:g} mm'
+        if not told.time_lower >= time:
+            return f'{pair} may touch in {told.time_lower:.2f} s, it must be {time:g} s'
+    return None
+
+
 class Guard:
     def __init__(self):
         check_names()
@@ -94,9 +122,16 @@ class Guard:
         self.objects = read('objects', [], lambda value: isinstance(value, list) and all(map(is_text, value)),
                             'a list of names')
         node = read('node', '/proximity', lambda value: is_text(value) and value, 'the name of a node')
-        self.topics = [node + '/environment_contacts']
-        if read('among_fibers', False, is_flag, 'true or false'):
-            self.topics.append(node + '/contacts')
+        time_ahead = read('time', 0, lambda value: is_number(value) and value >= 0.0, 'a number of at least 0 [s]')
+        among_fibers = read('among_fibers', False, is_flag, 'true or false')
+        # By topic: its type, and what may object to its answers.
+        self.topics = {node + '/environment_contacts': (
+            ContactArray, lambda answer: objection(answer, self.distance, self.objects, True))}
+        if among_fibers:
+            self.topics[node + '/contacts'] = (ContactArray, lambda answer: objection(answer, self.distance, [], False))
+        if time_ahead > 0.0:
+            self.topics[node + '/time_to_contact'] = (
+                TimeToContact, lambda answer: objection_to_times(answer, time_ahead, among_fibers))
         service = read('service', '', is_text, 'the name of a service')
 
         self.lock = threading.RLock()
@@ -111,14 +146,13 @@ class Guard:
         rospy.Service('~reset', Trigger, self.reset)
         if service:
             threading.Thread(target=self.call, args=(service,), daemon=True).start()
-        for topic in self.topics:
-            rospy.Subscriber(topic, ContactArray, self.receive, callback_args=topic, queue_size=10, buff_size=2**24)
+        for topic, (kind, _) in self.topics.items():
+            rospy.Subscriber(topic, kind, self.receive, callback_args=topic, queue_size=10, buff_size=2**24)
         rospy.on_shutdown(lambda: self.publisher.publish(True))
 
     def receive(self, answer, topic):
-        is_about_objects = topic == self.topics[0]
         try:
-            found = objection(answer, self.distance, self.objects if is_about_objects else [], is_about_objects)
+            found = self.topics[topic][1](answer)
         except IndexError:  # of a fibre or an object without a name
             found = 'its indices are wrong'
         with self.lock:

@@ -13,7 +13,7 @@ import rostest
 from std_msgs.msg import Bool
 from std_srvs.srv import Trigger, TriggerResponse
 
-from fiber_proximity.msg import Contact, ContactArray
+from fiber_proximity.msg import Contact, ContactArray, PredictedContact, TimeToContact
 
 PATIENCE = 120.0  # [s] that only a broken guard needs
 PATIENT = '_timeout:=1000'  # where silence is not what a test is about
@@ -25,6 +25,18 @@ def free(**changes):
     nearest = Contact(type_b=Contact.OBJECT, distance=0.06, lower=0.06, upper=0.06)
     answer = ContactArray(fiber_names=['cable'], object_names=['robot/tool'], complete=True, has_minimum=True,
                           minimum_distance=0.06, minimum_lower=0.06, minimum_upper=0.06, minimum=nearest)
+    answer.header.stamp = rospy.Time.now()
+    for name, value in changes.items():
+        setattr(answer, name, value)
+    return answer
+
+
+def free_times(**changes):
+    """A prediction that lets the robot move: nothing is touched in the half second that it looks ahead."""
+    parts = {name: PredictedContact(time_lower=0.5, time_upper=math.inf, complete=True)
+             for name in ('same_fiber', 'different_fibers', 'environment')}
+    answer = TimeToContact(fiber_names=['cable'], object_names=['robot/tool'], margin=0.01, horizon=0.5, complete=True,
+                           **parts)
     answer.header.stamp = rospy.Time.now()
     for name, value in changes.items():
         setattr(answer, name, value)
@@ -174,6 +186,33 @@ class GuardTest(unittest.TestCase):
         among.publish(free(complete=False))
         self.wait_for_state(True)
 
+    def test_what_may_touch_soon_stops_it_where_it_is_asked_for(self):
+        self.start(PATIENT, '_time:=0.3')
+        self.publisher.publish(free())
+        self.wait_until(lambda: self.reset().message == 'no answer on /proximity/time_to_contact yet',
+                        'the prediction is missed')
+        times = rospy.Publisher('/proximity/time_to_contact', TimeToContact, queue_size=100)
+        self.addCleanup(times.unregister)
+        self.wait_until(lambda: times.get_num_connections() == 1, 'the guard listens')
+        soon = PredictedContact(time_lower=0.29, time_upper=0.31, expected=True, complete=True)
+        near = PredictedContact(time_lower=0.5, touching=1, complete=True)
+        for answer, reason in [
+                (free_times(environment=soon), 'a cable and an object may touch in 0.29 s, it must be 0.3 s'),
+                (free_times(environment=near), 'within the margin of 10 mm'),
+                (free_times(environment=PredictedContact(time_lower=math.nan, complete=True)), 'nan s'),
+                (free_times(complete=False, unknown=['robot/tool since 2: no transform']), 'robot/tool since 2'),
+                (free_times(horizon=0.2), 'it looks 0.2 s ahead'),
+                (free_times(fiber_names=[]), 'no cables'),
+                (TimeToContact(), 'not complete')]:
+            with self.subTest(reason):
+                times.publish(free_times(different_fibers=soon, same_fiber=near))  # nobody asked about these
+                self.set_free()
+                times.publish(answer)
+                self.wait_for_state(True)
+                refused = self.reset()
+                self.assertFalse(refused.success, reason)
+                self.assertIn(reason, refused.message)
+
     def test_a_service_is_called_at_each_stop_until_it_succeeds(self):
         answers = [False, True, True]
         called = []
@@ -202,6 +241,7 @@ class GuardTest(unittest.TestCase):
                 (['_distance:=0.05', '_timeout:=0'], 'parameter /guard/timeout is 0, it must be a number above 0 [s]'),
                 (['_distance:=0.05', '_hold:=1'], 'parameter /guard/hold is 1, it must be true or false'),
                 (['_distance:=0.05', '_objects:=tool'], "parameter /guard/objects is 'tool', it must be a list"),
+                (['_distance:=0.05', '_time:=-1'], 'parameter /guard/time is -1, it must be a number of at least 0 [s]'),
                 (['_distance:=0.05', '_timout:=1'], 'parameter /guard/timout is unknown')]:
             with self.subTest(line):
                 self.log = ''

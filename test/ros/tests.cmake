@@ -107,6 +107,7 @@ add_executable(node_test EXCLUDE_FROM_ALL
   ros/draw_test.cpp
   ros/engines_test.cpp
   ros/environment_test.cpp
+  ros/guard_faults_test.cpp
   ros/inputs_test.cpp
   ros/joined_test.cpp
   ros/limits_test.cpp
@@ -140,8 +141,8 @@ foreach(name crossings draw environment inputs query unknown)
     ARGS nodelet:=true DEPENDENCIES node_test fiber_proximity_nodelets fiber_player)
 endforeach()
 add_rostest(ros/nodelet.test DEPENDENCIES node_test fiber_proximity_nodelets)
-foreach(name bad_input cell cloud_points compare continuous crossings_camera engines joined limits measure_settings
-    moving reconfigure self_contact shared_tracks sim_time skin soak stale timing tracks)
+foreach(name bad_input cell cloud_points compare continuous crossings_camera engines guard_faults joined limits
+    measure_settings moving reconfigure self_contact shared_tracks sim_time skin soak stale timing tracks)
   add_rostest(ros/${name}.test DEPENDENCIES node_test proximity_node fiber_player)
 endforeach()
 
@@ -282,7 +283,8 @@ if(TARGET fiber_proximity_python)
 endif()
 
 # In the environment of the devel space, as its readers.
-set(tutorials ask_before_you_move attach_a_tracker my_robot_and_my_cable simulate_a_cable stop_the_robot two_cables)
+set(tutorials ask_before_you_move attach_a_tracker guard_a_gripper my_robot_and_my_cable simulate_a_cable
+  stop_the_robot two_cables)
 if(FIBER_PROXIMITY_BUILD_BENCHMARKS)
   list(APPEND tutorials measure_your_own_scene)
 endif()

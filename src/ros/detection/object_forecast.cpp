@@ -64,7 +64,7 @@ ObjectForecast::ObjectForecast(const fiber::Environment& environment, const Obje
     displacements[i] = {time * twists[i].linear, time * twists[i].angular};
   }
   if (moving == 0) {
-    assumption = "objects stand still";
+    assumption = "objects stand still" + (others.is_empty() ? "" : " (" + others.text() + ")");
     return;
   }
   std::ostringstream text;
