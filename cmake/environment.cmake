@@ -17,6 +17,7 @@ add_library(fiber_proximity_environment SHARED
   src/environment/environment.cpp
   src/environment/environment_motion.cpp
   src/environment/mesh_topology.cpp
+  src/environment/moving_shapes.cpp
   src/environment/obstacle_parts.cpp
   src/environment/occupancy_octree.cpp
   src/environment/shape_contact_time.cpp

@@ -7,6 +7,7 @@ add_library(fiber_proximity_ros SHARED
   src/ros/detection/fiber_step.cpp
   src/ros/detection/knowledge.cpp
   src/ros/detection/motion_detector.cpp
+  src/ros/detection/object_forecast.cpp
   src/ros/detection/observed_scene.cpp
   src/ros/detection/predictor.cpp
   src/ros/detection/step_contacts.cpp
@@ -18,6 +19,7 @@ add_library(fiber_proximity_ros SHARED
   src/ros/environment/environment_options.cpp
   src/ros/environment/marker_obstacles.cpp
   src/ros/environment/mesh_loader.cpp
+  src/ros/environment/object_tracks.cpp
   src/ros/environment/obstacle_change.cpp
   src/ros/environment/obstacle_service.cpp
   src/ros/environment/obstacle_set.cpp

@@ -25,19 +25,33 @@ struct SegmentRun {
   double radius = 0.0;  // the largest [m]
 };
 
+/// Calls look(run) for each run of the fibres' segments, until the query is done().
+/// @tparam Query says how many segments a run has, what box the axes from a point to another are in
+///               and how thick a segment is
+template <class Query, class Look>
+void for_each_run(const FiberAssembly& fibers, Query& query, const Look& look) {
+  for (std::uint32_t fiber = 0; fiber < fibers.fiber_count(); ++fiber) {
+    const std::uint32_t last = fibers.offsets()[fiber + 1] - 1;
+    for (std::uint32_t first = fibers.offsets()[fiber]; first < last && !query.done();
+         first += Query::segments_per_run) {
+      SegmentRun run{fiber, first, std::min(first + Query::segments_per_run, last), {}};
+      run.box = query.box_of(run.begin, run.end);
+      for (std::uint32_t point = run.begin; point < run.end; ++point) {
+        run.radius = std::max(run.radius, query.radius_of(point));
+      }
+      look(run);
+    }
+  }
+}
+
 /// Finds the shapes near a box: those that end somewhere in FCL's dynamic AABB tree, the others are
 /// near everything.
 class Environment::BroadPhase {
  public:
-  /// @param paths of objects that move, by object; empty where all stand still. Referred to
-  explicit BroadPhase(const std::vector<EnvironmentObject>& objects,
-                      const std::vector<ObjectPath>& paths = {}) {
+  explicit BroadPhase(const std::vector<EnvironmentObject>& objects) {
     for (std::uint32_t i = 0; i < objects.size(); ++i) {
       for (std::uint32_t j = 0; j < objects[i].shapes.size(); ++j) {
         shapes_.emplace_back(objects[i], i, j);
-        if (!paths.empty()) {
-          shapes_.back().move_along(paths[i]);
-        }
       }
     }
     boxes_.reserve(shapes_.size());
@@ -56,26 +70,6 @@ class Environment::BroadPhase {
   /// By object, then by their index in it.
   const std::vector<WorldShape>& shapes() const { return shapes_; }
 
-  /// Offers a query the shapes near each run of the fibres' segments, until it is done().
-  /// @tparam Query says how many segments a run has, what box the axes from a point to another are
-  ///               in and how thick a segment is; its offer(run, shape) is a visit as below
-  template <class Query>
-  void offer_near(const FiberAssembly& fibers, Query& query) const {
-    for (std::uint32_t fiber = 0; fiber < fibers.fiber_count(); ++fiber) {
-      const std::uint32_t last = fibers.offsets()[fiber + 1] - 1;
-      for (std::uint32_t first = fibers.offsets()[fiber]; first < last && !query.done();
-           first += Query::segments_per_run) {
-        SegmentRun run{fiber, first, std::min(first + Query::segments_per_run, last), {}};
-        run.box = query.box_of(run.begin, run.end);
-        for (std::uint32_t point = run.begin; point < run.end; ++point) {
-          run.radius = std::max(run.radius, query.radius_of(point));
-        }
-        visit_near(run.box, [&](const WorldShape& shape) { return query.offer(run, shape); });
-      }
-    }
-  }
-
- private:
   /// Calls visit(shape) for the shapes near the box, nearer ones first, roughly. visit() returns
   /// how far they may be from then on [m]; boxes that overlap are never too far, unless it returns
   /// minus infinity: that ends the search.
@@ -88,6 +82,7 @@ class Environment::BroadPhase {
     tree_.distance(&query, &visit, &look<Visit>);
   }
 
+ private:
   /// An object whose box is set, not computed from a geometry: FCL offers no other way to give a
   /// rotated object a tight one.
   class BoxObject final : public fcl::CollisionObjectd {

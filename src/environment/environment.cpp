@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <limits>
-#include <set>
 #include <stdexcept>
-#include <string>
+#include <string_view>
 #include <utility>
 
 #include "fiber_proximity/query/for_engines/pair_collector.hpp"
@@ -134,12 +133,16 @@ Contact contact_with(const EnvironmentObject& owner, std::uint32_t object, std::
 }  // namespace
 
 Environment::Environment(std::vector<EnvironmentObject> objects) : objects_(std::move(objects)) {
-  std::set<std::string> names;
+  std::vector<std::string_view> names;
+  names.reserve(objects_.size());
   for (const EnvironmentObject& object : objects_) {
     validate(object);
-    if (!names.insert(object.name).second) {
-      throw std::invalid_argument("there are two objects of the name " + quote(object.name));
-    }
+    names.emplace_back(object.name);
+  }
+  std::sort(names.begin(), names.end());
+  const auto twice = std::adjacent_find(names.begin(), names.end());
+  if (twice != names.end()) {
+    throw std::invalid_argument("there are two objects of the name " + quote(*twice));
   }
   broad_phase_ = std::make_unique<BroadPhase>(objects_);
 }
@@ -152,7 +155,10 @@ void Environment::query(const FiberAssembly& fibers, const QueryOptions& options
   result.counts = QueryCounts();
   result.complete = true;
   EnvironmentQuery query(fibers, objects_, options, allowed, result);
-  broad_phase_->offer_near(fibers, query);
+  for_each_run(fibers, query, [&](const SegmentRun& run) {
+    broad_phase_->visit_near(run.box,
+                             [&](const WorldShape& shape) { return query.offer(run, shape); });
+  });
   query.finish();
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -15,6 +16,7 @@
 #include "fiber_proximity/query/options.hpp"
 #include "src/environment/allowed_contacts.hpp"
 #include "src/environment/broad_phase.hpp"
+#include "src/environment/moving_shapes.hpp"
 #include "src/environment/shape_contact_time.hpp"
 #include "src/geometry/swept_fibers.hpp"
 #include "src/query/contact_evaluator.hpp"
@@ -55,17 +57,72 @@ std::vector<ObjectPath> paths_between(const std::vector<EnvironmentObject>& befo
   return paths;
 }
 
+void validate(const ObjectDisplacement& displacement) {
+  if (!displacement.translation.unaryExpr(&FiberAssembly::is_valid_coordinate).all()) {
+    throw std::invalid_argument(FiberAssembly::coordinate_rule);
+  }
+  const double turn = displacement.rotation.norm();
+  if (!(turn <= ObjectDisplacement::max_rotation)) {
+    throw std::invalid_argument("it turns by " + std::to_string(turn) +
+                                " rad, it must be at most " +
+                                std::to_string(ObjectDisplacement::max_rotation));
+  }
+}
+
+std::vector<ObjectPath> paths_of(const std::vector<EnvironmentObject>& objects,
+                                 const std::vector<ObjectDisplacement>& displacements) {
+  if (displacements.size() != objects.size()) {
+    throw std::invalid_argument("there are " + std::to_string(displacements.size()) +
+                                " displacements of " + std::to_string(objects.size()) +
+                                " objects, there must be one of each");
+  }
+  std::vector<ObjectPath> paths;
+  paths.reserve(objects.size());
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    try {
+      validate(displacements[i]);
+    } catch (const std::invalid_argument& error) {
+      throw std::invalid_argument("the displacement of object " + quote(objects[i].name) + ": " +
+                                  error.what());
+    }
+    paths.emplace_back(objects[i].pose, displacements[i]);
+  }
+  return paths;
+}
+
+/// Where anything may come near to fibres during a motion.
+WorldBox box_around(const FiberMotion& motion, double margin) {
+  WorldBox box;
+  double radius = 0.0;
+  for (std::uint32_t fiber = 0; fiber < motion.before.fiber_count(); ++fiber) {
+    const std::uint32_t last = motion.before.offsets()[fiber + 1] - 1;
+    for (std::uint32_t point = motion.before.offsets()[fiber]; point < last; ++point) {
+      radius = std::max(radius, larger_radius(motion, point));
+    }
+    box.extend(box_of_ways(motion, motion.before.offsets()[fiber], last));
+  }
+  if (!box.isEmpty()) {
+    const double largest = box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff();
+    const double padding = (margin + radius) * (1.0 + 0x1p-30) + 0x1p-48 * largest;
+    box.min().array() -= padding;
+    box.max().array() += padding;
+  }
+  return box;
+}
+
 /// One query of an environment about a motion: first the pairs of segments and shapes that may
 /// meet, then when these do.
 class EnvironmentMotion {
  public:
   /// Holds references: they must outlive it.
   /// @param shapes by object, as WorldShape counts them
+  /// @param moving those of them that move; null where all stand still
   EnvironmentMotion(const FiberMotion& motion, const std::vector<WorldShape>& shapes,
-                    const std::vector<EnvironmentObject>& objects, const MotionOptions& options,
-                    const AllowedPairs& allowed)
+                    MovingShapes* moving, const std::vector<EnvironmentObject>& objects,
+                    const MotionOptions& options, const AllowedPairs& allowed)
       : motion_(motion),
         shapes_(shapes),
+        moving_(moving),
         options_(options),
         allowed_(allowed, objects),
         limits_(pairs_of(options)) {}
@@ -82,7 +139,8 @@ class EnvironmentMotion {
   ///         more are looked for
   double offer(const SegmentRun& run, const WorldShape& shape) {
     ++candidates_.counts.node_tests;
-    if (run.box.exteriorDistance(shape.box) > within(run.radius)) {
+    const WorldBox& shape_box = moves(shape) ? moving_->box(shape) : shape.box;
+    if (run.box.exteriorDistance(shape_box) > within(run.radius)) {
       return within(run.radius);
     }
     ++candidates_.counts.node_overlaps;
@@ -90,7 +148,7 @@ class EnvironmentMotion {
     const std::uint32_t first = motion_.before.offsets()[run.fiber];
     for (std::uint32_t point = run.begin; point < run.end; ++point) {
       const WorldBox box = box_of_ways(motion_, point, point + 1);
-      if (box.exteriorDistance(shape.box) > within(larger_radius(motion_, point)) ||
+      if (box.exteriorDistance(shape_box) > within(larger_radius(motion_, point)) ||
           allowed_.holds(motion_.before, {run.fiber, point - first}, shape.object)) {
         continue;
       }
@@ -102,6 +160,11 @@ class EnvironmentMotion {
     }
     return within(run.radius);
   }
+
+  /// [m] So far boxes may be apart that there is contact, with the rounding of their distance.
+  double within(double radius) const { return (options_.margin + radius) * (1.0 + 0x1p-40); }
+
+  bool moves(const WorldShape& shape) const { return moving_ != nullptr && moving_->moves(shape); }
 
   /// Whether the deadline has passed, or there are too many pairs.
   bool done() {
@@ -134,9 +197,6 @@ class EnvironmentMotion {
   }
 
  private:
-  /// [m] So far boxes may be apart that there is contact, with the rounding of their distance.
-  double within(double radius) const { return (options_.margin + radius) * (1.0 + 0x1p-40); }
-
   void evaluate(const std::uint64_t* keys, std::size_t count, MotionSlice& slice) const {
     slice.complete = !limits_.deadline.has_passed();
     if (slice.complete) {
@@ -148,7 +208,7 @@ class EnvironmentMotion {
     const PointPair pair = pair_of(key);
     const WorldShape& shape = shapes_[pair.b];
     const SegmentAndShape moving{motion_.before.capsule(pair.a), motion_.after.capsule(pair.a),
-                                 shape};
+                                 shape, moves(shape) ? &moving_->path(shape) : nullptr};
     const double radius = larger_radius(motion_, pair.a);
     const double limit = options_.margin + radius;
     const AxisDistance axis = axis_distance(shape.shape, shape.to_shape * moving.before.p0,
@@ -174,6 +234,7 @@ class EnvironmentMotion {
 
   const FiberMotion& motion_;
   const std::vector<WorldShape>& shapes_;
+  MovingShapes* const moving_;
   const MotionOptions& options_;
   const AllowedParts allowed_;
   const QueryLimits limits_;
@@ -185,28 +246,48 @@ class EnvironmentMotion {
 void Environment::query_motion(const FiberAssembly& before, const FiberAssembly& after,
                                const Environment& later, const MotionOptions& options,
                                const AllowedPairs& allowed, MotionResult& result) const {
-  if (&later == this) {
-    query_motion(*broad_phase_, {before, after}, options, allowed, result);
-    return;
-  }
-  const std::vector<ObjectPath> paths = paths_between(objects_, later.objects_);
+  const bool all_stand = &later == this;
+  query_motion(all_stand ? std::vector<ObjectPath>() : paths_between(objects_, later.objects_),
+               {before, after}, options, allowed, result);
+}
+
+void Environment::query_motion(const FiberAssembly& before, const FiberAssembly& after,
+                               const std::vector<ObjectDisplacement>& displacements,
+                               const MotionOptions& options, const AllowedPairs& allowed,
+                               MotionResult& result) const {
+  query_motion(paths_of(objects_, displacements), {before, after}, options, allowed, result);
+}
+
+/// @param paths by object; empty where all stand still
+void Environment::query_motion(const std::vector<ObjectPath>& paths, const FiberMotion& motion,
+                               const MotionOptions& options, const AllowedPairs& allowed,
+                               MotionResult& result) const {
   const bool do_turn =
       std::any_of(paths.begin(), paths.end(), [](const ObjectPath& path) { return path.turns(); });
   if (do_turn && options.tolerance == 0.0) {
     throw std::invalid_argument("the tolerance is 0 m, where objects turn it must be more");
   }
-  query_motion(BroadPhase(objects_, paths), {before, after}, options, allowed, result);
-}
-
-void Environment::query_motion(const BroadPhase& broad_phase, const FiberMotion& motion,
-                               const MotionOptions& options, const AllowedPairs& allowed,
-                               MotionResult& result) const {
   validate(options);
   require_same_topology(motion.before, motion.after);
   result.contacts.clear();
   result.touching.clear();
-  EnvironmentMotion query(motion, broad_phase.shapes(), objects_, options, allowed);
-  broad_phase.offer_near(motion.before, query);
+  std::optional<MovingShapes> moving;
+  if (!paths.empty()) {
+    moving.emplace(broad_phase_->shapes(), paths, box_around(motion, options.margin));
+  }
+  EnvironmentMotion query(motion, broad_phase_->shapes(), moving ? &*moving : nullptr, objects_,
+                          options, allowed);
+  for_each_run(motion.before, query, [&](const SegmentRun& run) {
+    if (!moving || !moving->are_all()) {
+      broad_phase_->visit_near(run.box, [&](const WorldShape& shape) {
+        return query.moves(shape) ? query.within(run.radius) : query.offer(run, shape);
+      });
+    }
+    if (moving) {
+      moving->visit_near(run.box, query.within(run.radius),
+                         [&](const WorldShape& shape) { query.offer(run, shape); });
+    }
+  });
   query.evaluate(result);
 }
 

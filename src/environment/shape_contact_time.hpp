@@ -44,6 +44,7 @@ struct SegmentAndShape {
   Capsule before;
   Capsule after;
   const WorldShape& shape;
+  const ObjectPath* path;  ///< of the object; null where it stands still
 };
 
 /// The first contact of their motion: as contact_time() of an axis and a shape. Where the shape

@@ -24,6 +24,7 @@ class ShapeMotion {
  public:
   ShapeMotion(const SegmentAndShape& pair, double distance, double tolerance)
       : shape_(pair.shape),
+        path_(pair.path),
         before_{pair.before.p0, pair.before.p1},
         ways_{pair.after.p0 - pair.before.p0, pair.after.p1 - pair.before.p1},
         distance_(distance),
@@ -34,8 +35,8 @@ class ShapeMotion {
     for (int i = 0; i < 2; ++i) {
       largest += before_[i].cwiseAbs().maxCoeff() + ways_[i].cwiseAbs().maxCoeff();
     }
-    if (shape_.path != nullptr) {
-      largest += shape_.path->way().cwiseAbs().maxCoeff();
+    if (path_ != nullptr) {
+      largest += path_->way().cwiseAbs().maxCoeff();
     }
     error_ = rounding * largest;
   }
@@ -63,14 +64,13 @@ class ShapeMotion {
     return time.upper <= 1.0 ? 1.0 : std::numeric_limits<double>::infinity();
   }
 
-  bool turns() const { return shape_.path != nullptr && shape_.path->turns(); }
+  bool turns() const { return path_ != nullptr && path_->turns(); }
 
   Vector3d at(int end, double time) const { return before_[end] + time * ways_[end]; }
 
   Eigen::Isometry3d to_shape(double time) const {
-    return shape_.path == nullptr
-               ? shape_.to_shape
-               : (shape_.path->pose(time) * shape_.in_object).inverse(Eigen::Isometry);
+    return path_ == nullptr ? shape_.to_shape
+                            : (path_->pose(time) * shape_.in_object).inverse(Eigen::Isometry);
   }
 
   AxisMotion motion_in(const TimeSpan& span) const {
@@ -87,22 +87,23 @@ class ShapeMotion {
     if (!turns()) {
       return 0.0;
     }
-    const double angle = shape_.path->angle() * span.size;
+    const double angle = path_->angle() * span.size;
     double deviation = 0.0;
     for (int i = 0; i < 2; ++i) {
-      const double speed = span.size * norm_of(ways_[i] - shape_.path->way());
+      const double speed = span.size * norm_of(ways_[i] - path_->way());
       const double far = std::max(from_origin(i, span.begin), from_origin(i, span.end()));
-      deviation = std::max(deviation, angle * (angle * far + 2.0 * speed) / 8.0 +
-                                          shape_.path->rotation_error() * far);
+      deviation = std::max(
+          deviation, angle * (angle * far + 2.0 * speed) / 8.0 + path_->rotation_error() * far);
     }
     return deviation * (1.0 + 0x1p-40);
   }
 
   double from_origin(int end, double time) const {
-    return norm_of(at(end, time) - shape_.path->pose(time).translation());
+    return norm_of(at(end, time) - path_->pose(time).translation());
   }
 
   const WorldShape& shape_;
+  const ObjectPath* const path_;
   const Vector3d before_[2];  // [m]
   const Vector3d ways_[2];    // [m]
   const double distance_;     // [m]

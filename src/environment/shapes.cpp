@@ -10,7 +10,6 @@
 #include "fiber_proximity/environment/triangle_mesh.hpp"
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "src/text/quote.hpp"
-#include "src/text/with_context.hpp"
 
 namespace fiber {
 namespace {
@@ -161,13 +160,16 @@ void validate(const EnvironmentObject& object) {
   if (object.name.empty()) {
     throw std::invalid_argument("an object has no name");
   }
-  const std::string name = "object " + quote(object.name);
-  with_context(name, [&] { validate(object.pose); });
-  for (std::size_t i = 0; i < object.shapes.size(); ++i) {
-    with_context(name + ", shape " + std::to_string(i), [&] {
+  std::string part;  // of the object, which an error is about
+  try {
+    validate(object.pose);
+    for (std::size_t i = 0; i < object.shapes.size(); ++i) {
+      part = ", shape " + std::to_string(i);
       validate(object.shapes[i].shape);
       validate(object.shapes[i].pose);
-    });
+    }
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument("object " + quote(object.name) + part + ": " + error.what());
   }
 }
 

@@ -1,6 +1,7 @@
 #include "fiber_proximity/environment/world.hpp"
 
 #include <stdexcept>
+#include <string_view>
 
 #include "src/text/quote.hpp"
 
@@ -32,24 +33,38 @@ void validate(const ObjectChange& change) {
 
 void World::apply(const std::vector<ObjectChange>& changes) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  Objects objects = objects_;
+  check(changes, objects_);
   for (const ObjectChange& change : changes) {
-    apply(change, objects);
+    apply(change, objects_);
   }
-  objects_.swap(objects);
   if (!changes.empty()) {
     environment_.reset();
   }
 }
 
+/// Refuses changes of which one cannot be made, after those before it.
+void World::check(const std::vector<ObjectChange>& changes, const Objects& objects) {
+  std::map<std::string_view, bool> is_there;  // of objects that the changes add or remove
+  for (const ObjectChange& change : changes) {
+    const EnvironmentObject& object = change.object;
+    validate(change);
+    if (!adds(change)) {
+      const auto changed = is_there.find(object.name);
+      if (changed != is_there.end() ? !changed->second : objects.count(object.name) == 0) {
+        refuse(object, "there is no object of this name to move or to remove");
+      }
+    }
+    if (change.operation != Operation::MOVE) {
+      is_there[object.name] = adds(change);
+    }
+  }
+}
+
+/// Makes a change that has been checked.
 void World::apply(const ObjectChange& change, Objects& objects) {
   const EnvironmentObject& object = change.object;
   const auto place = objects.find(object.name);
   const bool exists = place != objects.end();
-  validate(change);
-  if (!adds(change) && !exists) {
-    refuse(object, "there is no object of this name to move or to remove");
-  }
   switch (change.operation) {
     case Operation::ADD:
       objects[object.name] = object;

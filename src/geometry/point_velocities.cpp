@@ -1,7 +1,8 @@
 #include "src/geometry/point_velocities.hpp"
 
-#include <numeric>
 #include <utility>
+
+#include "src/geometry/time_line.hpp"
 
 namespace fiber {
 
@@ -26,19 +27,10 @@ void PointVelocities::find(std::vector<Eigen::Vector3d>& velocities) const {
   if (frames_.size() < 2) {
     return;
   }
-  // Relative to the first frame, as times and places may be large.
-  const double first = frames_.front().time;
-  const double mean =
-      std::accumulate(frames_.begin(), frames_.end(), 0.0,
-                      [&](double sum, const Frame& frame) { return sum + (frame.time - first); }) /
-      static_cast<double>(frames_.size());
-  double squares = 0.0;
+  const TimeLine line(frames_);
+  // Relative to the first frame, as places may be far away.
   for (const Frame& frame : frames_) {
-    const double apart = frame.time - first - mean;
-    squares += apart * apart;
-  }
-  for (const Frame& frame : frames_) {
-    const double weight = (frame.time - first - mean) / squares;
+    const double weight = line.weight(frame.time);
     for (std::size_t i = 0; i < count; ++i) {
       velocities[i] += weight * (frame.points[i] - frames_.front().points[i]);
     }

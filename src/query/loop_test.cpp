@@ -164,47 +164,76 @@ bool LoopTest::are_joined_by_graph(PointPair pair) const {
   return graph_->are_joined(fibers_->segment_id(pair.a).fiber, fibers_->segment_id(pair.b).fiber);
 }
 
-/// Whether each way through joints makes a loop. A way makes none if it is passable for all
-/// questions that the rule asks of those with its outer ends.
-bool LoopTest::all_ways_make_loops(PointPair pair, const SegmentDistance& nearest,
-                                   std::uint64_t& loop_steps) const {
+/// The points that are within the limits of questions that the rule asks.
+class LoopTest::Within {
+ public:
+  Within(const LoopTest& test, std::uint64_t& loop_steps) : test_(test), loop_steps_(loop_steps) {}
+
+  void clear() { count_ = 0; }
+  void add(const LoopPlace& x, const LoopPlace& y, double limit) {
+    questions_[count_++] = {x, y, limit};
+  }
+
+  bool at(std::uint32_t point) const {
+    const Vector3d& place = test_.fibers_->points()[point];
+    ++loop_steps_;
+    return !some([&](const LoopPlace& from, double limit) {
+      return LoopReach(from, limit).is_beyond(place);
+    });
+  }
+
+  bool along(std::uint32_t first, std::uint32_t last) const {
+    return !some([&](const LoopPlace& from, double limit) {
+      return test_.leaves(from, {first, last + 1}, limit, loop_steps_);
+    });
+  }
+
+ private:
   struct Question {
     LoopPlace x;
     LoopPlace y;
     double limit;
   };
+
+  template <class IsLeft>
+  bool some(const IsLeft& is_left) const {
+    return std::any_of(questions_.begin(), questions_.begin() + count_, [&](const Question& asked) {
+      return is_left(asked.x, asked.limit) || is_left(asked.y, asked.limit);
+    });
+  }
+
+  const LoopTest& test_;
+  std::uint64_t& loop_steps_;
+  std::array<Question, loop_question_count> questions_;
+  std::ptrdiff_t count_ = 0;
+};
+
+/// Whether each way through joints makes a loop. A way makes none if it is within the limits of all
+/// questions that the rule asks of those with its outer ends.
+bool LoopTest::all_ways_make_loops(PointPair pair, const SegmentDistance& nearest,
+                                   std::uint64_t& loop_steps) const {
   const Capsule a = fibers_->capsule(pair.a);
   const Capsule b = fibers_->capsule(pair.b);
-  std::array<Question, loop_question_count> questions;
-  std::size_t count = 0;
-  const auto note = [&](int question, const LoopPlace& x, const LoopPlace& y, double limit) {
-    if (question == 0) {
-      return true;  // it would only spare the others
-    }
-    questions[count++] = {x, y, limit};
-    return false;
-  };
-  const auto passes = [&](std::uint32_t first, std::uint32_t last) {
-    for (std::size_t i = 0; i < count; ++i) {
-      if (leaves(questions[i].x, {first, last + 1}, questions[i].limit, loop_steps) ||
-          leaves(questions[i].y, {first, last + 1}, questions[i].limit, loop_steps)) {
-        return false;
-      }
-    }
-    return true;
-  };
   const SegmentWays ways(*graph_, pair);
+  Within within(*this, loop_steps);
   // The one about the nearest places is the same for all ways.
-  note(1, place_on(a, nearest.s), place_on(b, nearest.t), LoopLimit(a, b)(nearest.distance));
-  if (!ways.is_passable(WayEnds(), passes)) {
+  within.add(place_on(a, nearest.s), place_on(b, nearest.t), LoopLimit(a, b)(nearest.distance));
+  if (!ways.is_passable(WayEnds(), within)) {
     return true;
   }
   for (const bool leaves_by_last : {true, false}) {
     for (const bool arrives_by_last : {false, true}) {
-      count = 0;
-      makes_loop_by(a, b, nearest, note, {!leaves_by_last, !arrives_by_last});
+      within.clear();
+      makes_loop_by(a, b, nearest,
+                    [&](int question, const LoopPlace& x, const LoopPlace& y, double limit) {
+                      if (question > 0) {  // that one would only spare the others
+                        within.add(x, y, limit);
+                      }
+                      return question == 0;
+                    },
+                    {!leaves_by_last, !arrives_by_last});
       if (ways.is_passable({!leaves_by_last, leaves_by_last, !arrives_by_last, arrives_by_last},
-                           passes)) {
+                           within)) {
         return false;
       }
     }

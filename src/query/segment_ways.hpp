@@ -26,35 +26,46 @@ class SegmentWays {
   SegmentWays(const FiberGraph& graph, PointPair pair) : graph_(graph), pair_(pair) {}
 
   /// Whether there is one that is passable. Takes time in proportion to what is.
-  /// @param passes tells whether points first … last of one fibre are passable: passes(first, last)
-  template <class Passes>
-  bool is_passable(const WayEnds& ends, const Passes& passes) const {
+  /// @param passable tells which points are: passable.at(point), passable.along(first, last) for
+  ///                 points of one fibre
+  template <class Passable>
+  bool is_passable(const WayEnds& ends, const Passable& passable) const {
     // Nearly all segments are far from all joints: both ends are looked at before any search.
-    const Stretches from = stretches_at(pair_.a, ends.leave_by_first, ends.leave_by_last, passes);
+    Stretches from = stretches_at(pair_.a, ends.leave_by_first, ends.leave_by_last, passable);
     if (from.count == 0) {
       return false;
     }
-    const Stretches to = stretches_at(pair_.b, ends.arrive_by_first, ends.arrive_by_last, passes);
-    return to.count > 0 && some_leads(from, to, passes);
+    Stretches to = stretches_at(pair_.b, ends.arrive_by_first, ends.arrive_by_last, passable);
+    return leave_passable(from, passable) && leave_passable(to, passable) &&
+           some_leads(from, to, passable);
   }
 
  private:
-  /// The joints that a segment's ends come to first by stretches that are passable.
+  /// The points from a segment's end to the joint that it comes to first, that one included.
+  struct Stretch {
+    std::uint32_t joint;
+    std::uint32_t first;
+    std::uint32_t last;
+  };
   struct Stretches {
-    std::uint32_t joints[2];
+    Stretch stretches[2];
     std::uint32_t count = 0;
+
+    bool lead_to(std::uint32_t joint) const {
+      return std::any_of(stretches, stretches + count,
+                         [joint](const Stretch& stretch) { return stretch.joint == joint; });
+    }
   };
 
-  template <class Passes>
+  /// Those whose joint point is passable.
+  template <class Passable>
   Stretches stretches_at(std::uint32_t segment, bool from_first, bool from_last,
-                         const Passes& passes) const {
+                         const Passable& passable) const {
     const std::vector<FiberGraph::JointPoint>& points = graph_.joint_points();
-    Stretches stretches;
+    Stretches found;
     const auto add = [&](std::uint32_t index, std::uint32_t first, std::uint32_t last) {
-      // The furthest point first, as it is the one that is most often beyond.
-      const std::uint32_t point = points[index].point;
-      if (is_free(first, last) && passes(point, point) && passes(first, last)) {
-        stretches.joints[stretches.count++] = points[index].joint;
+      if (is_free(first, last) && passable.at(points[index].point)) {
+        found.stretches[found.count++] = {points[index].joint, first, last};
       }
     };
     const std::uint32_t before = from_first ? graph_.last_until(segment) : FiberGraph::none;
@@ -65,11 +76,21 @@ class SegmentWays {
     if (after != FiberGraph::none) {
       add(after, segment + 1, points[after].point);
     }
-    return stretches;
+    return found;
   }
 
-  template <class Passes>
-  bool some_leads(const Stretches& from, const Stretches& to, const Passes& passes) const {
+  /// Leaves those that are passable; whether any is.
+  template <class Passable>
+  static bool leave_passable(Stretches& found, const Passable& passable) {
+    Stretch* const end = std::remove_if(
+        found.stretches, found.stretches + found.count,
+        [&](const Stretch& stretch) { return !passable.along(stretch.first, stretch.last); });
+    found.count = static_cast<std::uint32_t>(end - found.stretches);
+    return found.count > 0;
+  }
+
+  template <class Passable>
+  bool some_leads(const Stretches& from, const Stretches& to, const Passable& passable) const {
     JointMarks& reached = JointMarks::cleared(graph_.joint_count());
     thread_local std::vector<std::uint32_t> waiting;
     waiting.clear();
@@ -77,19 +98,21 @@ class SegmentWays {
       reached.mark(joint);
       waiting.push_back(joint);
     };
-    std::for_each(from.joints, from.joints + from.count, reach);
+    for (std::uint32_t i = 0; i < from.count; ++i) {
+      reach(from.stretches[i].joint);
+    }
     const std::vector<FiberGraph::JointPoint>& points = graph_.joint_points();
     const auto reach_along = [&](std::uint32_t stretch, std::uint32_t index) {
       if (graph_.has_next(stretch) && !reached.is_marked(points[index].joint) &&
           is_free(points[stretch].point, points[stretch + 1].point) &&
-          passes(points[stretch].point, points[stretch + 1].point)) {
+          passable.along(points[stretch].point, points[stretch + 1].point)) {
         reach(points[index].joint);
       }
     };
     while (!waiting.empty()) {
       const std::uint32_t joint = waiting.back();
       waiting.pop_back();
-      if (std::find(to.joints, to.joints + to.count, joint) != to.joints + to.count) {
+      if (to.lead_to(joint)) {
         return true;
       }
       for (const std::uint32_t member : graph_.members(joint)) {

@@ -5,54 +5,13 @@
 #include <limits>
 #include <utility>
 
+#include "src/query/touch_neighbours.hpp"
+
 namespace fiber {
 namespace {
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 constexpr TimeBounds never{std::chrono::nanoseconds::max(), std::chrono::nanoseconds::max()};
-
-/// A segment as one number, in the order of fibre and index.
-std::uint64_t number_of(std::uint32_t fiber, std::uint32_t segment) {
-  return std::uint64_t{fiber} << 32 | segment;
-}
-
-/// Finds, among pairs sorted by key, the neighbours of one pair after the other: those whose
-/// segments are the same, or next to them. As those that are asked about are sorted, too, each
-/// place is passed once only.
-template <class Pair>
-class Neighbours {
- public:
-  /// @param pairs must outlive this
-  explicit Neighbours(const std::vector<Pair>& pairs) : pairs_(pairs) {}
-
-  /// Calls for the index of each neighbour before `end`.
-  /// @param other,end neither less than in the call before
-  template <class Other, class Use>
-  void for_each(const Other& other, std::size_t end, const Use& use) {
-    const std::uint64_t b = number_of(other.fiber_b, other.segment_b);
-    const std::uint64_t min_b = other.segment_b == 0 ? b : b - 1;
-    // The first segment and each one next to it have a place of their own.
-    for (std::uint32_t row = other.segment_a == 0 ? 1 : 0; row < 3; ++row) {
-      const std::uint64_t a = number_of(other.fiber_a, other.segment_a) + row - 1;
-      std::size_t& begin = begins_[row];
-      while (begin < end && is_before(pairs_[begin], a, min_b)) {
-        ++begin;
-      }
-      for (std::size_t i = begin; i < end && is_before(pairs_[i], a, b + 2); ++i) {
-        use(i);
-      }
-    }
-  }
-
- private:
-  static bool is_before(const Pair& pair, std::uint64_t a, std::uint64_t b) {
-    const std::uint64_t pair_a = number_of(pair.fiber_a, pair.segment_a);
-    return pair_a < a || (pair_a == a && number_of(pair.fiber_b, pair.segment_b) < b);
-  }
-
-  const std::vector<Pair>& pairs_;
-  std::size_t begins_[3] = {};
-};
 
 /// The first pair of a patch; makes the way there shorter.
 std::uint32_t first_of(std::vector<std::uint32_t>& patches, std::uint32_t pair) {
@@ -66,10 +25,10 @@ std::uint32_t first_of(std::vector<std::uint32_t>& patches, std::uint32_t pair) 
 /// Joins those of the pairs that are to be joined and are neighbours.
 /// @param firsts becomes the first pair that each is joined with, none of those that are not to be
 template <class IsWanted>
-void join_neighbours(const std::vector<TouchingPair>& pairs, const IsWanted& is_wanted,
-                     std::vector<std::uint32_t>& firsts) {
+void join_neighbours(const std::vector<TouchingPair>& pairs, const TouchSeams& seams,
+                     const IsWanted& is_wanted, std::vector<std::uint32_t>& firsts) {
   firsts.assign(pairs.size(), none);
-  Neighbours<TouchingPair> earlier_pairs(pairs);
+  TouchNeighbours<TouchingPair> earlier_pairs(pairs, seams);
   for (std::uint32_t i = 0; i < pairs.size(); ++i) {
     if (!is_wanted(pairs[i])) {
       continue;
@@ -140,7 +99,7 @@ void TouchTracker::advance(const std::vector<TouchingPair>& pairs, const TimeBou
 /// patches_ is the first pair of each pair's patch; of a patch that has parted, of its part.
 void TouchTracker::find_patches(const std::vector<TouchingPair>& pairs) {
   join_neighbours(
-      pairs, [](const TouchingPair&) { return true; }, patches_);
+      pairs, seams_, [](const TouchingPair&) { return true; }, patches_);
   partings_.clear();
   if (find_parts(pairs)) {
     share_gone_pairs(pairs);
@@ -155,7 +114,7 @@ bool TouchTracker::find_parts(const std::vector<TouchingPair>& pairs) {
     return false;
   }
   join_neighbours(
-      pairs, [](const TouchingPair& pair) { return !pair.is_gone; }, parts_);
+      pairs, seams_, [](const TouchingPair& pair) { return !pair.is_gone; }, parts_);
   bool one_has_parted = false;
   partings_.assign(pairs.size(), {none, false, {std::chrono::nanoseconds::max(), {}}});
   for (std::size_t i = 0; i < pairs.size(); ++i) {
@@ -183,7 +142,7 @@ void TouchTracker::share_gone_pairs(const std::vector<TouchingPair>& pairs) {
   }
   while (!unshared.empty()) {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> shared;
-    Neighbours<TouchingPair> neighbours(pairs);
+    TouchNeighbours<TouchingPair> neighbours(pairs, seams_);
     for (const std::uint32_t i : unshared) {
       std::uint32_t part = none;
       neighbours.for_each(pairs[i], pairs.size(),
@@ -212,7 +171,7 @@ void TouchTracker::share_gone_pairs(const std::vector<TouchingPair>& pairs) {
 void TouchTracker::find_claims(const std::vector<TouchingPair>& pairs) {
   claims_.clear();
   claimed_last_.assign(2 * touches_.size(), none);
-  Neighbours<Standing> before(standing_);
+  TouchNeighbours<Standing> before(standing_, seams_);
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     before.for_each(pairs[i], standing_.size(), [&](std::size_t neighbour) {
       const Standing& pair = standing_[neighbour];

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "fiber_proximity/export.hpp"
@@ -27,13 +28,21 @@ struct TouchingPair : SegmentIdPair {
 };
 
 /// One place where two fibres touch, from its beginning to its end: all pairs in contact that are
-/// neighbours of each other, their segments the same or next to each other on both fibres. As a
-/// contact slides along, its pairs change and the touch stays.
+/// neighbours of each other, their segments the same or next to each other on both fibres, across
+/// the seam of a closed one as well. As a contact slides along, its pairs change and the touch
+/// stays.
 struct Touch {
   std::uint64_t id = 0;  ///< never 0
   TimeBounds began;
   double deepest = 0.0;  ///< [m] the smallest gap that was seen
   TouchingPair pair;     ///< the one of that gap in the last step
+};
+
+/// Where fibres are closed.
+struct TouchSeams {
+  /// By fibre the last segment of one that is closed, 0 of an open one; empty: all are open.
+  std::vector<std::uint32_t> last_segments;
+  bool are_of_both = false;  ///< the second bodies are these fibres, too, not objects
 };
 
 /// That a touch began or ended.
@@ -61,6 +70,9 @@ class FIBER_PROXIMITY_EXPORT TouchTracker {
   ///        the same
   explicit TouchTracker(std::uint64_t first_id = 1, std::uint64_t id_step = 1)
       : next_id_(first_id), id_step_(id_step) {}
+
+  /// Which fibres of the steps from now on are closed; none are to begin with.
+  void set_seams(TouchSeams seams) { seams_ = std::move(seams); }
 
   /// Takes a step.
   /// @param pairs  of the step, sorted by key; the same segments may be there more than once
@@ -116,6 +128,7 @@ class FIBER_PROXIMITY_EXPORT TouchTracker {
 
   std::uint64_t next_id_;
   std::uint64_t id_step_;
+  TouchSeams seams_;
   std::vector<TouchStep> touches_;            // of the last step, by id
   std::vector<std::uint32_t> touch_of_pair_;  // of the last step
   std::vector<Standing> standing_;            // sorted by key

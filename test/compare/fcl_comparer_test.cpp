@@ -9,6 +9,8 @@
 #include "fiber_proximity/scenes/scene.hpp"
 #include "test/support/answers.hpp"
 #include "test/support/hard_scenes.hpp"
+#include "test/support/joined_fibers.hpp"
+#include "test/support/neighbour_skips.hpp"
 #include "test/support/small_scene.hpp"
 
 namespace fiber::test {
@@ -53,6 +55,24 @@ void expect_agreement(const StyleComparison& style) {
 void expect_the_same(const StyleComparison& best) {
   expect_agreement(best);
   EXPECT_EQ(best.largest_difference, 0.0);
+}
+
+TEST_F(FclComparerTest, AgreesOnWhatIsClosedAndJoined) {
+  SCOPED_TRACE(seed_message());
+  Random random;
+  std::size_t contacts = 0;
+  for (int round = 0; round < 30; ++round) {
+    const FiberAssembly fibers = random_joined_fibers(random).assembly();
+    QueryOptions options;
+    options.margin = random.uniform(0.0, 0.3);
+    set_neighbour_skips(options, random, 3, random.chance(0.5) ? random.uniform(0.0, 1.0) : 0.0);
+    const Comparison found = compare(fibers, options);
+    expect_consistent(found);
+    expect_the_same(found.styles[1]);
+    ASSERT_EQ(found.contacts, brute_force(fibers, options).contacts.size()) << skips_of(options);
+    contacts += found.contacts;
+  }
+  expect_enough(contacts, std::size_t{100});
 }
 
 TEST_F(FclComparerTest, AgreesOnCablesAndSoup) {

@@ -14,8 +14,10 @@ namespace {
 
 using Eigen::Vector3d;
 
+/// Some of them are closed.
 FiberAssembly random_fibers(Random& random, int fiber_count) {
   std::vector<Vector3d> points;
+  FiberTopology topology;
   std::vector<std::uint32_t> offsets{0};
   for (int fiber = 0; fiber < fiber_count; ++fiber) {
     Vector3d point = random.in_cube();
@@ -24,8 +26,10 @@ FiberAssembly random_fibers(Random& random, int fiber_count) {
       point += random.in_cube(0.1);
     }
     offsets.push_back(static_cast<std::uint32_t>(points.size()));
+    const bool may_be_closed = offsets.back() - offsets[offsets.size() - 2] > 2;
+    topology.closed.push_back(may_be_closed && random.chance(0.3) ? 1 : 0);
   }
-  return {points, offsets, {0.01}};
+  return {points, offsets, {0.01}, topology};
 }
 
 void expect_same(const QueryResult& found, const QueryResult& wanted) {

@@ -91,13 +91,13 @@ TEST_P(EnvironmentMotions, FindAllThatAnyTimeShows) {
 }
 
 std::string name_of_object_motion(const testing::TestParamInfo<ObjectMotion>& motion) {
-  const char* const words[] = {"StandStill", "GoStraight", "Turn"};
+  const char* const words[] = {"StandStill", "GoStraight", "Turn", "GoByDisplacements"};
   return words[static_cast<int>(motion.param)];
 }
 
 INSTANTIATE_TEST_SUITE_P(Objects, EnvironmentMotions,
                          testing::Values(ObjectMotion::NONE, ObjectMotion::STRAIGHT,
-                                         ObjectMotion::TURNING),
+                                         ObjectMotion::TURNING, ObjectMotion::DISPLACED),
                          name_of_object_motion);
 
 /// All at the origin, flat, about 0.2 m wide, and so high above it [m].

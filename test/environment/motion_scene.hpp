@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -35,19 +36,44 @@ inline Eigen::Isometry3d pose_at(const Eigen::Isometry3d& before, const Eigen::I
   return pose;
 }
 
+/// Pose at a time of a displacement, written otherwise than the library has it.
+inline Eigen::Isometry3d pose_at(const Eigen::Isometry3d& before,
+                                 const ObjectDisplacement& displacement, double time) {
+  const double half = 0.5 * time * displacement.rotation.norm();
+  Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();
+  turn.w() = std::cos(half);
+  turn.vec() = std::sin(half) * displacement.rotation.normalized();
+  Eigen::Isometry3d pose = before;
+  pose.linear() = (turn * Eigen::Quaterniond(before.linear())).toRotationMatrix();
+  pose.translation() += time * displacement.translation;
+  return pose;
+}
+
 /// What is asked.
 struct MotionScene {
   std::vector<EnvironmentObject> before;
   std::vector<EnvironmentObject> after;
+  std::vector<ObjectDisplacement> displacements;  // instead of after, unless it is empty
   FiberAssembly fibers_before;
   FiberAssembly fibers_after;
   MotionOptions options;
 
   MotionResult ask() const {
     MotionResult result;
-    Environment(before).query_motion(fibers_before, fibers_after, Environment(after), options, {},
-                                     result);
+    const Environment environment(before);
+    if (displacements.empty()) {
+      environment.query_motion(fibers_before, fibers_after, Environment(after), options, {},
+                               result);
+    } else {
+      environment.query_motion(fibers_before, fibers_after, displacements, options, {}, result);
+    }
     return result;
+  }
+
+  Eigen::Isometry3d pose(std::uint32_t object, double time) const {
+    const Eigen::Isometry3d& first = before[object].pose;
+    return displacements.empty() ? pose_at(first, after[object].pose, time)
+                                 : pose_at(first, displacements[object], time);
   }
 
   /// Of a segment's surface from a shape at a time.
@@ -57,8 +83,7 @@ struct MotionScene {
                              time * fibers_after.points()[point]);
     };
     const Eigen::Isometry3d to_shape =
-        (pose_at(before[object].pose, after[object].pose, time) * before[object].shapes[0].pose)
-            .inverse(Eigen::Isometry);
+        (pose(object, time) * before[object].shapes[0].pose).inverse(Eigen::Isometry);
     const AxisDistance axis =
         axis_distance(before[object].shapes[0].shape, to_shape * end(segment),
                       to_shape * end(segment + 1), std::numeric_limits<double>::infinity());
@@ -67,7 +92,7 @@ struct MotionScene {
   }
 };
 
-enum class ObjectMotion { NONE, STRAIGHT, TURNING };
+enum class ObjectMotion { NONE, STRAIGHT, TURNING, DISPLACED };
 
 inline MotionScene random_scene(Random& random, double extent, ObjectMotion motion) {
   MotionScene scene;
@@ -84,6 +109,10 @@ inline MotionScene random_scene(Random& random, double extent, ObjectMotion moti
           Eigen::AngleAxisd(random.uniform(0.0, 3.0), random.direction()).toRotationMatrix();
     }
     scene.after.push_back({name, pose, {{shape, in_object}}});
+    if (motion == ObjectMotion::DISPLACED) {
+      const double turn = random.chance(0.2) ? 0.0 : std::exp(random.uniform(-8.0, 3.0));
+      scene.displacements.push_back({random.in_cube(0.5 * extent), turn * random.direction()});
+    }
   }
   const double radius = random.chance(0.3) ? 0.0 : 0.02 * extent * random.uniform(0.0, 1.0);
   std::vector<Eigen::Vector3d> points = random_cable(random, extent, 6);

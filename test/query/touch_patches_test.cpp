@@ -219,5 +219,41 @@ TEST_F(TouchTrackerTest, TouchesAreWhatHangsTogetherAtTheEndOfAStep) {
   expect_enough(stayed, static_cast<std::size_t>(rounds(5000)));
 }
 
+/// Fibre 0 is closed, of ten segments, fibre 1 of seven.
+TEST_F(TouchTrackerTest, ATouchKeepsItsIdAcrossASeam) {
+  tracker_.set_seams({{9, 6}, true});
+  step({{8, 3}});
+  EXPECT_EQ(step({{8, 3}, {9, 3}}).size(), 0U);
+  EXPECT_EQ(step({{0, 3}, {8, 3}, {9, 3}}).size(), 0U) << "one patch";
+  EXPECT_EQ(ids_, (std::vector<std::uint64_t>{1, 1, 1}));
+  EXPECT_EQ(step({{1, 3}}).size(), 0U) << "next to one that there was";
+  EXPECT_EQ(step({{0, 2}}).size(), 0U);
+  EXPECT_EQ(step({{9, 1}}).size(), 0U);
+  EXPECT_EQ(step({{9, 0}}).size(), 0U);
+  EXPECT_EQ(step({{0, 6}}).size(), 0U) << "across both";
+  EXPECT_EQ(ids_, (std::vector<std::uint64_t>{1}));
+  tracker_.set_seams({});
+  EXPECT_EQ(step({{9, 6}}).size(), 2U) << "far from each other on open fibres";
+}
+
+TEST_F(TouchTrackerTest, ATouchOfAClosedFiberWithItselfKeepsItsIdAcrossTheSeam) {
+  tracker_.set_seams({{9, 0}, true});
+  const auto self = [&](std::uint32_t a, std::uint32_t b) {
+    return step_with({{0, a, 0, b, -1e-3, false, step_, {}}}).size();
+  };
+  self(4, 9);
+  EXPECT_EQ(self(0, 4), 0U);
+  EXPECT_EQ(self(4, 9), 0U);
+  EXPECT_EQ(self(0, 5), 0U);
+  EXPECT_EQ(ids_, (std::vector<std::uint64_t>{1}));
+}
+
+TEST_F(TouchTrackerTest, ObjectsHaveNoSeam) {
+  tracker_.set_seams({{9, 6}, false});
+  step({{9, 6}});
+  EXPECT_EQ(step({{0, 6}}).size(), 0U);
+  EXPECT_EQ(step({{0, 0}}).size(), 2U);
+}
+
 }  // namespace
 }  // namespace fiber::test

@@ -107,7 +107,7 @@ class RobotLinksTest : public ::testing::Test {
       }
       return poses_[frame];
     };
-    return links_.update(ros::Time(time), find, world_);
+    return links_.update(ros::Time(time), find, world_, tracks_);
   }
 
   /// Name and place of all there is.
@@ -134,6 +134,7 @@ class RobotLinksTest : public ::testing::Test {
   using Strings = std::vector<std::string>;
 
   fiber::World world_;
+  ObjectTracks tracks_;
   RobotLinks links_;
   std::map<std::string, FramePose> poses_;
 };

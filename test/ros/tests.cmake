@@ -112,6 +112,7 @@ add_executable(node_test EXCLUDE_FROM_ALL
   ros/limits_test.cpp
   ros/main.cpp
   ros/measure_settings_test.cpp
+  ros/moving_test.cpp
   ros/no_clock_test.cpp
   ros/nodelet_test.cpp
   ros/prediction_test.cpp
@@ -140,7 +141,7 @@ foreach(name crossings draw environment inputs query unknown)
 endforeach()
 add_rostest(ros/nodelet.test DEPENDENCIES node_test fiber_proximity_nodelets)
 foreach(name bad_input cell cloud_points compare continuous crossings_camera engines joined limits measure_settings
-    reconfigure self_contact shared_tracks sim_time skin soak stale timing tracks)
+    moving reconfigure self_contact shared_tracks sim_time skin soak stale timing tracks)
   add_rostest(ros/${name}.test DEPENDENCIES node_test proximity_node fiber_player)
 endforeach()
 

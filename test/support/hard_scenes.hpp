@@ -20,7 +20,7 @@ inline double segment_gap(const std::vector<Eigen::Vector3d>& points, std::size_
       .distance;
 }
 
-inline void turn(std::vector<Eigen::Vector3d>& points, Random& random) {
+inline void turn_at_random(std::vector<Eigen::Vector3d>& points, Random& random) {
   const Eigen::Matrix3d rotation =
       Eigen::AngleAxisd(random.uniform(0.0, pi), random.direction()).toRotationMatrix();
   for (Eigen::Vector3d& point : points) {
@@ -60,7 +60,7 @@ inline FiberAssembly tight_knot(Random& random) {
     points.emplace_back(out * std::cos(around), out * std::sin(around),
                         half_gap * std::sin(1.5 * around));
   }
-  turn(points, random);
+  turn_at_random(points, random);
   double gap = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < segments / 2; ++i) {
     gap = std::min(gap, segment_gap(points, i, i + segments / 2));
@@ -77,7 +77,7 @@ inline FiberAssembly close_wound_coil(Random& random) {
     const double angle = 2.0 * pi * (i % per_turn) / per_turn;
     points.emplace_back(0.05 * std::cos(angle), 0.05 * std::sin(angle), 0.02 * i / per_turn);
   }
-  turn(points, random);
+  turn_at_random(points, random);
   return as_fibers({points}, 0.5 * segment_gap(points, 0, per_turn));
 }
 

@@ -50,6 +50,18 @@ void validate(const NamedPair& pair);
 AllowedPairs resolve(const std::vector<NamedPair>& pairs,
                      const std::vector<std::string>& fiber_names);
 
+/// How an object moves from its pose: its origin linearly, while it turns about the origin at a
+/// constant rate.
+struct ObjectDisplacement {
+  /// [rad] Objects that turn further in one motion are refused.
+  static constexpr double max_rotation = 100.0;
+
+  Eigen::Vector3d translation = Eigen::Vector3d::Zero();  ///< [m] of the origin, in the world
+  Eigen::Vector3d rotation = Eigen::Vector3d::Zero();     ///< [rad] along its axis in the world
+};
+
+class ObjectPath;
+
 /// The objects around the fibres at one moment; never changes once it is made, so that any number
 /// of threads may ask at once while the next one is made.
 ///
@@ -99,6 +111,15 @@ class Environment {
                     const Environment& later, const MotionOptions& options,
                     const AllowedPairs& allowed, MotionResult& result) const;
 
+  /// The same where objects move by displacements: they may turn any way round, more than once.
+  /// @param displacements by object
+  /// @throws std::invalid_argument as above, for another number of displacements than there are
+  ///         objects, for one that is not finite or larger than 1e150 m or max_rotation
+  void query_motion(const FiberAssembly& before, const FiberAssembly& after,
+                    const std::vector<ObjectDisplacement>& displacements,
+                    const MotionOptions& options, const AllowedPairs& allowed,
+                    MotionResult& result) const;
+
   /// A pair that query_motion() has found, as it is at time_of() it.
   Contact first_contact(const FiberMotion& motion, const Environment& later,
                         const MotionContact& contact) const;
@@ -106,7 +127,7 @@ class Environment {
  private:
   class BroadPhase;
 
-  void query_motion(const BroadPhase& broad_phase, const FiberMotion& motion,
+  void query_motion(const std::vector<ObjectPath>& paths, const FiberMotion& motion,
                     const MotionOptions& options, const AllowedPairs& allowed,
                     MotionResult& result) const;
 

@@ -46,6 +46,7 @@ class World {
  private:
   using Objects = std::map<std::string, EnvironmentObject>;
 
+  static void check(const std::vector<ObjectChange>& changes, const Objects& objects);
   static void apply(const ObjectChange& change, Objects& objects);
 
   mutable std::mutex mutex_;

@@ -68,7 +68,9 @@ void Predictor::predict(const fiber::QueryOptions& options, fiber_proximity::Tim
     budget.enter(Stage::PREDICTION);
   }
   take_frames();
+  scene_.environment.keep_tracks(options_.frames);
   is_cut_off_ = false;
+  left_out_.clear();
   message = {};
   message.header = scene_.fibers.header();
   message.fiber_names = scene_.fibers.names();
@@ -76,7 +78,7 @@ void Predictor::predict(const fiber::QueryOptions& options, fiber_proximity::Tim
   message.horizon = options_.horizon;
   message.assumption =
       "each point keeps the velocity of the line of least squares through its places in the last "
-      "messages of its input, and objects stand still";
+      "messages of its input";
   try {
     find_contacts(options, message, budget);
   } catch (const std::invalid_argument& error) {
@@ -108,6 +110,10 @@ void Predictor::limit_to_known(const fiber::QueryOptions& options,
     all.add_cut_off("prediction: " + message.problem);
   } else if (is_cut_off_) {
     all.add_cut_off(cut_off_text("pairs that move", options));
+  }
+  if (!left_out_.empty()) {
+    all.add_cut_off(left_out_);
+    message.environment.complete = false;
   }
   message.complete = all.is_complete();
   message.unknown = all.unknown();
@@ -166,6 +172,23 @@ bool Predictor::predict_places(fiber_proximity::TimeToContact& message) {
   return one_moves;
 }
 
+/// Finds how objects go on, and tells it.
+/// @returns nothing where there are none
+std::optional<ObjectForecast> Predictor::forecast_objects(
+    fiber_proximity::TimeToContact& message) const {
+  if (!scene_.environment.is_used()) {
+    return std::nullopt;
+  }
+  ObjectForecast objects(*around_, scene_.environment.tracks(), message.header.stamp,
+                         scene_.environment.pose_timeout(), options_.horizon);
+  if (objects.moving > 0) {
+    message.frames = std::min(message.frames, static_cast<std::uint32_t>(objects.frames));
+    message.frame_time = std::min(message.frame_time, objects.frame_time);
+  }
+  message.assumption += "; " + objects.assumption;
+  return objects;
+}
+
 void Predictor::find_contacts(const fiber::QueryOptions& options,
                               fiber_proximity::TimeToContact& message, Budget& budget) {
   if (!scene_.fibers.is_fresh()) {
@@ -177,7 +200,10 @@ void Predictor::find_contacts(const fiber::QueryOptions& options,
     message.problem = no_time_text(options);
     return;
   }
-  if (!predict_places(message)) {
+  around_ = scene_.environment.environment();
+  const bool do_fibers_move = predict_places(message);
+  const std::optional<ObjectForecast> objects = forecast_objects(message);
+  if (!do_fibers_move && (!objects || objects->moving == 0)) {
     message.frames = 1;
     message.frame_time = 0.0;
     message.problem = "no input has sent more than one message: there are no velocities yet";
@@ -187,15 +213,34 @@ void Predictor::find_contacts(const fiber::QueryOptions& options,
   after_ = before_;
   // Points of a joint are extrapolated one by one, and may part.
   after_.update_points(points_, fiber::JointCheck::LEFT_OUT);
-  engine_->update_motion(before_, after_);
-  const bool has_objects = scene_.environment.is_used();
   fiber::MotionOptions motion = fiber::motion_options(options, options_.tolerance);
+  find_contacts_of_fibers(motion, objects.has_value(), message, budget);
+  if (objects) {
+    motion.type = fiber::MotionType::FIRST;
+    find_contacts_with_objects(motion, *objects, message, budget);
+  } else {
+    result_ = fiber::MotionResult();
+    result_.others_lower = 1.0;
+    message.environment =
+        earliest_of(result_, options_.horizon, [](const MotionContact&) { return true; });
+  }
+  if (!scene_.fibers.uncertainties().empty()) {
+    message.assumption += "; contacts are those that the inputs' uncertainty allows";
+    keep_possible(message.same_fiber);
+    keep_possible(message.different_fibers);
+    keep_possible(message.environment);
+  }
+}
+
+void Predictor::find_contacts_of_fibers(const fiber::MotionOptions& asked, bool has_objects,
+                                        fiber_proximity::TimeToContact& message, Budget& budget) {
+  fiber::MotionOptions motion = asked;
   // Takes as long as for the first one, is asked once for both, and is not reported.
   motion.type = fiber::MotionType::ALL;
   motion.contact_limit = 0;
-  using Bodies = Uncertainty::Bodies;
-  const std::vector<double>& uncertainties = scene_.fibers.uncertainties();
-  motion.margin = Uncertainty(uncertainties, Bodies::BOTH).possible_margin(options.margin);
+  motion.margin = Uncertainty(scene_.fibers.uncertainties(), Uncertainty::Bodies::BOTH)
+                      .possible_margin(asked.margin);
+  engine_->update_motion(before_, after_);
   budget.ask(motion, [&](fiber::MotionOptions in_time) {
     // Half of the time is for objects.
     in_time.deadline = has_objects ? 0.5 * in_time.deadline : in_time.deadline;
@@ -207,27 +252,39 @@ void Predictor::find_contacts(const fiber::QueryOptions& options,
   message.different_fibers =
       earliest_of(result_, options_.horizon,
                   [](const MotionContact& contact) { return contact.fiber_a != contact.fiber_b; });
-  if (has_objects) {
-    motion.type = fiber::MotionType::FIRST;
-    motion.contact_limit = options.contact_limit;
-    motion.margin = Uncertainty(uncertainties, Bodies::A).possible_margin(options.margin);
-    const std::shared_ptr<const fiber::Environment> around = scene_.environment.environment();
-    budget.ask(motion, [&](const fiber::MotionOptions& in_time) {
-      around->query_motion(before_, after_, *around, in_time,
-                           scene_.environment.allowed(scene_.fibers.names()), result_);
-    });
-    message.object_names = object_names(*around);
-  } else {
-    result_ = fiber::MotionResult();
-    result_.others_lower = 1.0;
+}
+
+void Predictor::find_contacts_with_objects(const fiber::MotionOptions& asked,
+                                           const ObjectForecast& objects,
+                                           fiber_proximity::TimeToContact& message,
+                                           Budget& budget) {
+  fiber::MotionOptions motion = asked;
+  motion.margin = Uncertainty(scene_.fibers.uncertainties(), Uncertainty::Bodies::A)
+                      .possible_margin(asked.margin);
+  if (motion.tolerance == 0.0 && objects.moving > 0) {
+    constexpr double min_tolerance = 1e-9;  // [m] where objects turn
+    motion.tolerance = min_tolerance;
   }
+  const double part = objects.time / options_.horizon;
+  if (part < 1.0) {
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      points_[i] = before_.points()[i] + part * (points_[i] - before_.points()[i]);
+    }
+    after_.update_points(points_, fiber::JointCheck::LEFT_OUT);
+  }
+  budget.ask(motion, [&](const fiber::MotionOptions& in_time) {
+    const fiber::AllowedPairs allowed = scene_.environment.allowed(scene_.fibers.names());
+    if (objects.moving > 0) {
+      around_->query_motion(before_, after_, objects.displacements, in_time, allowed, result_);
+    } else {
+      around_->query_motion(before_, after_, *around_, in_time, allowed, result_);
+    }
+  });
+  message.object_names = object_names(*around_);
   message.environment =
-      earliest_of(result_, options_.horizon, [](const MotionContact&) { return true; });
-  if (!uncertainties.empty()) {
-    message.assumption += "; contacts are those that the inputs' uncertainty allows";
-    keep_possible(message.same_fiber);
-    keep_possible(message.different_fibers);
-    keep_possible(message.environment);
+      earliest_of(result_, objects.time, [](const MotionContact&) { return true; });
+  if (part < 1.0 && !message.environment.expected) {
+    left_out_ = objects.limit;
   }
 }
 

@@ -9,9 +9,11 @@
 #include <vector>
 
 #include "fiber_proximity/TimeToContact.h"
+#include "fiber_proximity/environment/environment.hpp"
 #include "fiber_proximity/query/engine.hpp"
 #include "src/geometry/point_velocities.hpp"
 #include "src/ros/detection/budget.hpp"
+#include "src/ros/detection/object_forecast.hpp"
 #include "src/ros/detection/observed_scene.hpp"
 
 namespace fiber_proximity_ros {
@@ -23,7 +25,7 @@ struct PredictionOptions {
   double tolerance = 1e-6;  ///< [m] see MotionOptions
 };
 
-/// Finds when fibres will touch each other, and what is around them, if they go on as they do.
+/// Finds when fibres will touch each other, and what is around them, if all go on as they do.
 class Predictor {
  public:
   /// @param scene must outlive this
@@ -43,8 +45,11 @@ class Predictor {
   /// Whether a deadline or a limit came before the end of the last prediction.
   bool is_cut_off() const { return is_cut_off_; }
 
-  /// Fibres are not looked at: their velocities are not known any more.
-  void skip() { inputs_frames_.clear(); }
+  /// Nothing is looked at: velocities are not known any more.
+  void skip() {
+    inputs_frames_.clear();
+    scene_.environment.keep_tracks(0);
+  }
 
  private:
   /// The known motion of an input.
@@ -58,14 +63,20 @@ class Predictor {
 
   void take_frames();
   bool predict_places(fiber_proximity::TimeToContact& message);
+  std::optional<ObjectForecast> forecast_objects(fiber_proximity::TimeToContact& message) const;
   void find_contacts(const fiber::QueryOptions& options, fiber_proximity::TimeToContact& message,
                      Budget& budget);
+  void find_contacts_of_fibers(const fiber::MotionOptions& asked, bool has_objects,
+                               fiber_proximity::TimeToContact& message, Budget& budget);
+  void find_contacts_with_objects(const fiber::MotionOptions& asked, const ObjectForecast& objects,
+                                  fiber_proximity::TimeToContact& message, Budget& budget);
   void limit_to_known(const fiber::QueryOptions& options, fiber_proximity::TimeToContact& message);
 
   ObservedScene& scene_;
   std::unique_ptr<fiber::ProximityEngine> engine_;
   PredictionOptions options_;
   bool is_cut_off_ = false;
+  std::string left_out_;                    // what the last prediction did not look at, and why
   std::vector<InputFrames> inputs_frames_;  // by input
 
   // Members for their memory.
@@ -73,6 +84,7 @@ class Predictor {
   std::vector<Eigen::Vector3d> points_;      // [m] at the horizon
   fiber::FiberAssembly before_;
   fiber::FiberAssembly after_;
+  std::shared_ptr<const fiber::Environment> around_;
   fiber::MotionResult result_;
 };
 

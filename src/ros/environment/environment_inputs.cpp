@@ -61,9 +61,10 @@ EnvironmentInputs::EnvironmentInputs(const ros::NodeHandle& node,
                                      std::function<void()> on_message)
     : frame_(frame),
       on_message_(std::move(on_message)),
-      obstacles_(world_),
+      obstacles_(world_, tracks_),
       scene_(options.scene.obstacles),
       robot_(options.robot, options.robot_timeout),
+      pose_timeout_(options.robot_timeout),
       obstacle_timeout_(options.obstacle_timeout),
       max_stamp_ahead_(options.max_stamp_ahead),
       max_lateness_(options.tf_timeout),
@@ -114,7 +115,7 @@ bool EnvironmentInputs::update(const ros::Time& stamp) {
   const auto find_pose = [this](const std::string& frame, const ros::Time& time) {
     return frame_.latest_pose(frame, time);
   };
-  return robot_.update(stamp, find_pose, world_) || changed;
+  return robot_.update(stamp, find_pose, world_, tracks_) || changed;
 }
 
 bool EnvironmentInputs::is_waiting() const {

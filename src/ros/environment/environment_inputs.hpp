@@ -17,6 +17,7 @@
 #include "src/ros/environment/cloud_input.hpp"
 #include "src/ros/environment/environment_options.hpp"
 #include "src/ros/environment/marker_obstacles.hpp"
+#include "src/ros/environment/object_tracks.hpp"
 #include "src/ros/environment/obstacle_service.hpp"
 #include "src/ros/environment/obstacle_set.hpp"
 #include "src/ros/environment/owed_changes.hpp"
@@ -63,6 +64,15 @@ class EnvironmentInputs {
   /// May be kept and asked by any thread.
   std::shared_ptr<const fiber::Environment> environment() const { return world_.environment(); }
 
+  /// Where the objects have been.
+  const ObjectTracks& tracks() const { return tracks_; }
+
+  /// @param frames see ObjectTracks
+  void keep_tracks(std::size_t frames) { tracks_.keep(frames); }
+
+  /// [s] A pose that is older than this tells nothing of how an object moves now: ~robot_timeout.
+  double pose_timeout() const { return pose_timeout_; }
+
   fiber::AllowedPairs allowed(const std::vector<std::string>& fiber_names) const {
     return fiber::resolve(allowed_->pairs(), fiber_names);
   }
@@ -94,9 +104,11 @@ class EnvironmentInputs {
   FixedFrame& frame_;
   std::function<void()> on_message_;
   fiber::World world_;
+  ObjectTracks tracks_;
   ObstacleSet obstacles_;
   SceneObstacles scene_;
   RobotLinks robot_;
+  double pose_timeout_;      // [s]
   double obstacle_timeout_;  // [s]
   double max_stamp_ahead_;   // [s]
   double max_lateness_;      // [s] a change of an object that is there may wait so long

@@ -124,7 +124,7 @@ bool MarkerObstacles::expire(const ros::Time& now) {
       removals.push_back(removal_of(name));
     }
   }
-  obstacles_.apply(removals);
+  obstacles_.apply(removals, std::vector<ros::Time>(removals.size()));
   return !removals.empty();
 }
 
@@ -244,7 +244,7 @@ void MarkerObstacles::apply(const std::vector<Step>& steps, const Change::Poses&
       changes.push_back(step.change);
     }
   }
-  obstacles_.apply(changes);
+  obstacles_.apply(changes, std::vector<ros::Time>(changes.size()));
   names_ = std::move(names);
 }
 

@@ -27,10 +27,14 @@ std::size_t triangle_count(const Obstacles& obstacles) {
 
 }  // namespace
 
-void ObstacleSet::apply(const Changes& changes, const std::set<std::string>& cancelled) {
+void ObstacleSet::apply(const Changes& changes, const std::vector<ros::Time>& stamps,
+                        const std::set<std::string>& cancelled) {
+  const ros::Time now = ros::Time::now();
   std::set<std::string> names = names_;
   Changes steps;
-  for (const fiber::ObjectChange& change : changes) {
+  std::vector<ros::Time> step_stamps;
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    const fiber::ObjectChange& change = changes[i];
     const std::string& name = change.object.name;
     if (change.operation != Operation::REMOVE) {
       steps.push_back(change);
@@ -42,8 +46,12 @@ void ObstacleSet::apply(const Changes& changes, const std::set<std::string>& can
     } else if (names.erase(name) > 0 || cancelled.count(name) == 0) {
       steps.push_back(change);
     }
+    step_stamps.resize(steps.size(), stamps[i].isZero() ? now : stamps[i]);
   }
   world_.apply(steps);
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    tracks_.take(steps[i], step_stamps[i]);
+  }
   names_ = std::move(names);
 }
 
@@ -66,15 +74,17 @@ Change ObstacleSet::change_of(std::shared_ptr<const Obstacles> obstacles, double
   const bool is_large = is_large_mesh(triangle_count(*obstacles));
   const auto prepare = [this, obstacles = std::move(obstacles)]() -> Change::Apply {
     Changes changes;
+    std::vector<ros::Time> stamps;
     for (const fiber_proximity::Obstacle& obstacle : *obstacles) {
       changes.push_back(to_change(obstacle));
+      stamps.push_back(obstacle.header.stamp);
     }
-    return [this, changes](const Change::Poses& poses, const Change::Names& cancelled) {
+    return [this, changes, stamps](const Change::Poses& poses, const Change::Names& cancelled) {
       Changes placed = changes;
       for (std::size_t i = 0; i < placed.size(); ++i) {
         placed[i].object.pose = poses[i] * placed[i].object.pose;
       }
-      apply(placed, cancelled);
+      apply(placed, stamps, cancelled);
     };
   };
   auto apply = Prepared<Change::Apply>(prepare, is_large ? &worker : nullptr);
@@ -102,7 +112,7 @@ bool SceneObstacles::update(ObstacleSet& obstacles, FixedFrame& frame) {
       FramedName framed{"obstacle " + fiber::quote(name), {}};
       framed.header.frame_id = next.obstacle.frame_id;
       addition.object.pose = locate(framed, frame) * addition.object.pose;
-      obstacles.apply({addition});
+      obstacles.apply({addition}, {ros::Time()});
     } catch (const std::exception& error) {  // above all TransformUnavailable
       next.error = error.what();
       waiting.push_back(std::move(next));

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <ros/time.h>
+
 #include <memory>
 #include <set>
 #include <string>
@@ -8,6 +10,7 @@
 #include "fiber_proximity/Obstacle.h"
 #include "fiber_proximity/environment/scene/environment_scene.hpp"
 #include "fiber_proximity/environment/world.hpp"
+#include "src/ros/environment/object_tracks.hpp"
 #include "src/ros/environment/waiting_changes.hpp"
 #include "src/ros/support/unknown.hpp"
 #include "src/ros/support/worker.hpp"
@@ -17,13 +20,15 @@ namespace fiber_proximity_ros {
 /// The objects of the world that came as obstacles, and so not those of robot and cloud.
 class ObstacleSet {
  public:
-  explicit ObstacleSet(fiber::World& world) : world_(world) {}
+  /// @param world, tracks must outlive this
+  ObstacleSet(fiber::World& world, ObjectTracks& tracks) : world_(world), tracks_(tracks) {}
 
   /// Applies the changes, which are in the fixed frame, or none. A REMOVE of an empty name is that
   /// of all obstacles.
+  /// @param stamps    when objects were there, by change; zero: now
   /// @param cancelled names that a REMOVE may have even if there is no such obstacle
   /// @throws std::invalid_argument as fiber::World::apply
-  void apply(const std::vector<fiber::ObjectChange>& changes,
+  void apply(const std::vector<fiber::ObjectChange>& changes, const std::vector<ros::Time>& stamps,
              const std::set<std::string>& cancelled = {});
 
   /// Makes a change of these obstacles; large meshes are built by the worker.
@@ -35,6 +40,7 @@ class ObstacleSet {
 
  private:
   fiber::World& world_;
+  ObjectTracks& tracks_;
   std::set<std::string> names_;
 };
 

@@ -88,11 +88,18 @@ RobotLinks::RobotLinks(const std::vector<RobotLink>& links, double timeout) : ti
   }
 }
 
-bool RobotLinks::update(const ros::Time& stamp, const FindPose& find_pose, fiber::World& world) {
+bool RobotLinks::update(const ros::Time& stamp, const FindPose& find_pose, fiber::World& world,
+                        ObjectTracks& tracks) {
   std::vector<fiber::ObjectChange> changes;
   for (Link& link : links_) {
-    if (auto change = place(link, this->find_pose(link, stamp, find_pose))) {
+    const std::optional<FramePose> found = this->find_pose(link, stamp, find_pose);
+    if (auto change = place(link, found)) {
       changes.push_back(std::move(*change));
+    }
+    if (found && !found->stamp.isZero()) {
+      tracks.observe(link.object.name, found->pose, found->stamp);
+    } else {
+      tracks.forget(link.object.name);
     }
   }
   world.apply(changes);
@@ -110,25 +117,25 @@ std::vector<Unknown> RobotLinks::unknown() const {
 }
 
 std::optional<fiber::ObjectChange> RobotLinks::place(Link& link,
-                                                     const std::optional<Eigen::Isometry3d>& pose) {
-  const bool was_present = std::exchange(link.is_present, pose.has_value());
-  if (!pose) {
+                                                     const std::optional<FramePose>& found) {
+  const bool was_present = std::exchange(link.is_present, found.has_value());
+  if (!found) {
     return was_present ? std::make_optional(removal_of(link.object.name)) : std::nullopt;
   }
-  if (was_present && pose->matrix() == link.object.pose.matrix()) {
+  if (was_present && found->pose.matrix() == link.object.pose.matrix()) {
     return std::nullopt;
   }
-  link.object.pose = *pose;
+  link.object.pose = found->pose;
   fiber::ObjectChange change{was_present ? Operation::MOVE : Operation::ADD,
-                             {link.object.name, *pose, {}}};
+                             {link.object.name, found->pose, {}}};
   if (!was_present) {
     change.object.shapes = link.object.shapes;
   }
   return change;
 }
 
-std::optional<Eigen::Isometry3d> RobotLinks::find_pose(Link& link, const ros::Time& stamp,
-                                                       const FindPose& find_pose) const {
+std::optional<FramePose> RobotLinks::find_pose(Link& link, const ros::Time& stamp,
+                                               const FindPose& find_pose) const {
   if (link.known.isZero()) {
     link.known = stamp;
   }
@@ -138,7 +145,7 @@ std::optional<Eigen::Isometry3d> RobotLinks::find_pose(Link& link, const ros::Ti
     const double age = found.stamp.isZero() ? 0.0 : (stamp - found.stamp).toSec();
     if (age <= timeout_) {
       link.known = found.stamp.isZero() ? stamp : found.stamp;
-      return found.pose;
+      return found;
     }
     std::ostringstream message;
     message << "its transform is of " << found.stamp << ", older than " << timeout_

@@ -8,6 +8,7 @@
 #include "fiber_proximity/environment/shapes.hpp"
 #include "fiber_proximity/environment/world.hpp"
 #include "src/ros/environment/mesh_loader.hpp"
+#include "src/ros/environment/object_tracks.hpp"
 #include "src/ros/inputs/fixed_frame.hpp"
 #include "src/ros/support/unknown.hpp"
 
@@ -36,8 +37,10 @@ class RobotLinks {
   RobotLinks(const std::vector<RobotLink>& links, double timeout);
 
   /// Brings the links to where they are at this time.
+  /// @param tracks of those that are in the world, by what tf tells
   /// @returns true if the world changed
-  bool update(const ros::Time& stamp, const FindPose& find_pose, fiber::World& world);
+  bool update(const ros::Time& stamp, const FindPose& find_pose, fiber::World& world,
+              ObjectTracks& tracks);
 
   /// The links that are not in the world.
   std::vector<Unknown> unknown() const;
@@ -53,12 +56,12 @@ class RobotLinks {
   };
 
   /// None where it is unknown; the link's error says why then.
-  std::optional<Eigen::Isometry3d> find_pose(Link& link, const ros::Time& stamp,
-                                             const FindPose& find_pose) const;
+  std::optional<FramePose> find_pose(Link& link, const ros::Time& stamp,
+                                     const FindPose& find_pose) const;
 
   /// The change that brings the link there, or away; none where it stays.
   static std::optional<fiber::ObjectChange> place(Link& link,
-                                                  const std::optional<Eigen::Isometry3d>& pose);
+                                                  const std::optional<FramePose>& found);
 
   std::vector<Link> links_;
   double timeout_;

@@ -63,6 +63,17 @@ std::uint8_t kind_of(const fiber::TouchEvent& event, const fiber_proximity::Cont
   return is_lost ? fiber_proximity::ContactEvent::LOST : fiber_proximity::ContactEvent::ENDED;
 }
 
+/// Where the fibres are closed.
+fiber::TouchSeams seams_of(const fiber::FiberAssembly& fibers, std::uint8_t type_b) {
+  fiber::TouchSeams seams;
+  seams.are_of_both = type_b == Contact::FIBER;
+  for (std::size_t i = 0; fibers.graph() != nullptr && i < fibers.fiber_count(); ++i) {
+    seams.last_segments.push_back(
+        fibers.is_closed(i) ? fibers.offsets()[i + 1] - fibers.offsets()[i] - 2 : 0);
+  }
+  return seams;
+}
+
 /// Adds what is known of it over time.
 void add_details(const StepContact& contact, const fiber::Touch& touch, nanoseconds since,
                  nanoseconds now, Contact& message) {
@@ -98,6 +109,7 @@ void ContactOutput::track(const ContactAnswer& answer) {
     pairs_.push_back(pair_of(contact, type_b_ == Contact::OBJECT));
   }
   events_.clear();
+  tracker_.set_seams(seams_of(answer.fibers, type_b_));
   tracker_.advance(pairs_, step, events_);
   publish_events(names_, answer);
   has_answer_ = true;
@@ -108,7 +120,7 @@ void ContactOutput::publish(const ContactAnswer& answer, bool has_gradients, dou
   if (!topic_.has_listeners()) {
     return;
   }
-  const auto& [detection, options, motion, knowledge, names, header] = answer;
+  const auto& [detection, options, motion, knowledge, names, header, fibers] = answer;
   const Completeness completeness = completeness_of(answer);
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const nanoseconds now = to_time(header.stamp);

@@ -29,6 +29,7 @@ struct ContactAnswer {
   const Knowledge& knowledge;
   const BodyNames& names;
   const std_msgs::Header& header;
+  const fiber::FiberAssembly& fibers;  ///< that the contacts are of
 };
 
 /// Publishes contacts of one kind, of fibres with each other or with objects: those of each answer,

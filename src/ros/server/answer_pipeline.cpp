@@ -246,8 +246,13 @@ void AnswerPipeline::publish_contacts() {
   budget_.enter(Stage::OUTPUT);
   const Stopwatch stopwatch;
   const BodyNames names{scene_.fibers.names(), {}};
-  const ContactAnswer answer{
-      found, query, motion ? &*motion : nullptr, scene_.knowledge, names, scene_.fibers.header()};
+  const ContactAnswer answer{found,
+                             query,
+                             motion ? &*motion : nullptr,
+                             scene_.knowledge,
+                             names,
+                             scene_.fibers.header(),
+                             scene_.fibers.fibers()};
   contacts_.track(answer);
   markers_.add_passed(contacts_.contacts());
   add_part("touches", stopwatch.seconds());
@@ -283,8 +288,13 @@ void AnswerPipeline::detect_in_environment() {
     return;
   }
   const BodyNames names{scene_.fibers.names(), object_names(environment_.environment())};
-  const ContactAnswer answer{
-      found, query, environment_.motion(), scene_.knowledge, names, scene_.fibers.header()};
+  const ContactAnswer answer{found,
+                             query,
+                             environment_.motion(),
+                             scene_.knowledge,
+                             names,
+                             scene_.fibers.header(),
+                             scene_.fibers.fibers()};
   environment_contacts_.track(answer);
   environment_contacts_.publish(answer, config.gradients, environment_.update_time());
 }

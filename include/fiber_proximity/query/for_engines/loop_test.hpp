@@ -80,6 +80,7 @@ class LoopTest {
  private:
   struct Chain;
   struct Slot;
+  class Within;
 
   bool is_within(std::uint32_t fiber, std::uint32_t point) const {
     return point < fibers_->offsets()[fiber + 1];
