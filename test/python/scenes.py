@@ -141,6 +141,12 @@ class Files(unittest.TestCase):
         fibers = fp.read(self.path('a.swc'))
         np.testing.assert_array_equal(fibers.offsets, [0, 2, 4, 6])
         np.testing.assert_array_equal(fibers.points[-1], [9e-6, -9e-6, 0])
+        for end in 'vtp', 'npz', 'csv':
+            fp.write(self.path('tree.' + end), fibers)
+            again = fp.read(self.path('tree.' + end))
+            np.testing.assert_array_equal(again.points, fibers.points)
+            np.testing.assert_array_equal(again.joints, fibers.joints)
+            self.assertEqual(len(fp.Engine(again).contacts(1.0)), 0)
 
     def test_fibers_of_one_point(self):
         with open(self.path('a.csv'), 'w', encoding='utf-8') as file:
