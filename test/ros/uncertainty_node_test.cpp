@@ -6,6 +6,7 @@
 
 #include "fiber_proximity/CheckFibers.h"
 #include "fiber_proximity/TimeToContact.h"
+#include "test/ros/live_settings.hpp"
 #include "test/ros/messages.hpp"
 #include "test/ros/node_test.hpp"
 
@@ -189,6 +190,28 @@ TEST_F(UncertaintyNodeTest, TimesToContactAreOfPossibleContacts) {
   EXPECT_GE(contact.touching, 1U);
   EXPECT_EQ(contact.time_lower, 0.0) << "known fibres 25 mm apart may count as near as 40 mm";
   EXPECT_FALSE(told->environment.certain);
+}
+
+TEST_F(UncertaintyNodeTest, AContactIsCertainByTheTimeThatToldPointsAreWellWithinTheMargin) {
+  fiber_proximity::ProximityConfig config = fiber_proximity::ProximityConfig::__getDefault__();
+  config.margin = 0.05;
+  config.prediction = 1.0;
+  config.prediction_frames = 2;
+  node_test::set_parameters(config);
+  // 0.5 m/s towards the known cable at y = 0.045, with which it has a gap of 0.335 m. A gap of 0.03
+  // m is within the margin wherever two tracked fibres are.
+  const fiber_proximity::TimeToContact* told = nullptr;
+  ASSERT_TRUE(node_test::wait_for([&] {
+    answer_to(cables({{0.45, 0.0}}));
+    FiberArray next = cables({{0.4, 0.0}});
+    next.header.stamp = stamp_ + ros::Duration(0.1);
+    tracked_.publish(next);
+    told = times_.wait_for(next.header.stamp);
+    return told != nullptr && told->problem.empty() && told->frames == 2 && told->margin == 0.05;
+  }));
+  EXPECT_TRUE(told->different_fibers.certain);
+  EXPECT_NEAR(told->different_fibers.time_upper, (0.335 - 0.03) / 0.5, 1e-4);
+  EXPECT_GE(told->different_fibers.time_upper, (0.335 - 0.03) / 0.5 - 1e-12);
 }
 
 }  // namespace

@@ -42,6 +42,16 @@ PredictedContact earliest_of(const fiber::MotionResult& result, double horizon,
   return message;
 }
 
+bool is_of_same_fiber(const MotionContact& contact) { return contact.fiber_a == contact.fiber_b; }
+bool is_of_different_fibers(const MotionContact& contact) { return !is_of_same_fiber(contact); }
+bool is_any(const MotionContact& /*contact*/) { return true; }
+
+/// What a prediction of told points with the certain margin knows: by when a contact has come.
+void take_certain(const PredictedContact& certain, PredictedContact& message) {
+  message.certain = certain.certain;
+  message.time_upper = certain.time_upper;
+}
+
 /// What is left of a prediction of told points with the possible margin: when no contact can be
 /// before, not when one is certain to be.
 void keep_possible(PredictedContact& message) {
@@ -221,14 +231,10 @@ void Predictor::find_contacts(const fiber::QueryOptions& options,
   } else {
     result_ = fiber::MotionResult();
     result_.others_lower = 1.0;
-    message.environment =
-        earliest_of(result_, options_.horizon, [](const MotionContact&) { return true; });
+    message.environment = earliest_of(result_, options_.horizon, is_any);
   }
   if (!scene_.fibers.uncertainties().empty()) {
     message.assumption += "; contacts are those that the inputs' uncertainty allows";
-    keep_possible(message.same_fiber);
-    keep_possible(message.different_fibers);
-    keep_possible(message.environment);
   }
 }
 
@@ -238,20 +244,30 @@ void Predictor::find_contacts_of_fibers(const fiber::MotionOptions& asked, bool 
   // Takes as long as for the first one, is asked once for both, and is not reported.
   motion.type = fiber::MotionType::ALL;
   motion.contact_limit = 0;
-  motion.margin = Uncertainty(scene_.fibers.uncertainties(), Uncertainty::Bodies::BOTH)
-                      .possible_margin(asked.margin);
   engine_->update_motion(before_, after_);
-  budget.ask(motion, [&](fiber::MotionOptions in_time) {
-    // Half of the time is for objects.
-    in_time.deadline = has_objects ? 0.5 * in_time.deadline : in_time.deadline;
-    engine_->query_motion(in_time, result_);
-  });
-  message.same_fiber = earliest_of(result_, options_.horizon, [](const MotionContact& contact) {
-    return contact.fiber_a == contact.fiber_b;
-  });
-  message.different_fibers =
-      earliest_of(result_, options_.horizon,
-                  [](const MotionContact& contact) { return contact.fiber_a != contact.fiber_b; });
+  const auto ask = [&](double margin) {
+    motion.margin = margin;
+    budget.ask(motion, [&](fiber::MotionOptions in_time) {
+      // Half of the time is for objects.
+      in_time.deadline = has_objects ? 0.5 * in_time.deadline : in_time.deadline;
+      engine_->query_motion(in_time, result_);
+    });
+  };
+  const Uncertainty uncertainty(scene_.fibers.uncertainties(), Uncertainty::Bodies::BOTH);
+  const double horizon = options_.horizon;
+  ask(uncertainty.possible_margin(asked.margin));
+  message.same_fiber = earliest_of(result_, horizon, is_of_same_fiber);
+  message.different_fibers = earliest_of(result_, horizon, is_of_different_fibers);
+  if (uncertainty.is_none()) {
+    return;
+  }
+  keep_possible(message.same_fiber);
+  keep_possible(message.different_fibers);
+  if (const double certain = uncertainty.certain_margin(asked.margin); certain >= 0.0) {
+    ask(certain);
+    take_certain(earliest_of(result_, horizon, is_of_same_fiber), message.same_fiber);
+    take_certain(earliest_of(result_, horizon, is_of_different_fibers), message.different_fibers);
+  }
 }
 
 void Predictor::find_contacts_with_objects(const fiber::MotionOptions& asked,
@@ -259,8 +275,6 @@ void Predictor::find_contacts_with_objects(const fiber::MotionOptions& asked,
                                            fiber_proximity::TimeToContact& message,
                                            Budget& budget) {
   fiber::MotionOptions motion = asked;
-  motion.margin = Uncertainty(scene_.fibers.uncertainties(), Uncertainty::Bodies::A)
-                      .possible_margin(asked.margin);
   if (motion.tolerance == 0.0 && objects.moving > 0) {
     constexpr double min_tolerance = 1e-9;  // [m] where objects turn
     motion.tolerance = min_tolerance;
@@ -272,17 +286,28 @@ void Predictor::find_contacts_with_objects(const fiber::MotionOptions& asked,
     }
     after_.update_points(points_, fiber::JointCheck::LEFT_OUT);
   }
-  budget.ask(motion, [&](const fiber::MotionOptions& in_time) {
-    const fiber::AllowedPairs allowed = scene_.environment.allowed(scene_.fibers.names());
-    if (objects.moving > 0) {
-      around_->query_motion(before_, after_, objects.displacements, in_time, allowed, result_);
-    } else {
-      around_->query_motion(before_, after_, *around_, in_time, allowed, result_);
-    }
-  });
+  const auto ask = [&](double margin) {
+    motion.margin = margin;
+    budget.ask(motion, [&](const fiber::MotionOptions& in_time) {
+      const fiber::AllowedPairs allowed = scene_.environment.allowed(scene_.fibers.names());
+      if (objects.moving > 0) {
+        around_->query_motion(before_, after_, objects.displacements, in_time, allowed, result_);
+      } else {
+        around_->query_motion(before_, after_, *around_, in_time, allowed, result_);
+      }
+    });
+  };
+  const Uncertainty uncertainty(scene_.fibers.uncertainties(), Uncertainty::Bodies::A);
+  ask(uncertainty.possible_margin(asked.margin));
   message.object_names = object_names(*around_);
-  message.environment =
-      earliest_of(result_, objects.time, [](const MotionContact&) { return true; });
+  message.environment = earliest_of(result_, objects.time, is_any);
+  if (!uncertainty.is_none()) {
+    keep_possible(message.environment);
+    if (const double certain = uncertainty.certain_margin(asked.margin); certain >= 0.0) {
+      ask(certain);
+      take_certain(earliest_of(result_, objects.time, is_any), message.environment);
+    }
+  }
   if (part < 1.0 && !message.environment.expected) {
     left_out_ = objects.limit;
   }

@@ -87,6 +87,10 @@ double Uncertainty::possible_margin(double margin) const {
   return is_none() ? margin : rounded_up(margin + max_);
 }
 
+double Uncertainty::certain_margin(double margin) const {
+  return is_none() ? margin : rounded_down(margin - max_);
+}
+
 void Uncertainty::widen(fiber::Contact& contact) const {
   const double by = of_pair(contact);
   if (by > 0.0) {

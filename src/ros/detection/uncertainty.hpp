@@ -39,6 +39,10 @@ class Uncertainty {
   /// [m] Pairs whose true gap may be within a margin are told to be within this one.
   double possible_margin(double margin) const;
 
+  /// [m] Pairs that are told to be within this one have a true gap within the margin; may be below
+  /// 0.
+  double certain_margin(double margin) const;
+
   /// Widens the bounds of the true gap.
   void widen(fiber::Contact& contact) const;
 
