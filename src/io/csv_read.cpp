@@ -221,10 +221,10 @@ class CsvReader {
     if (const auto frame = parse_number<std::int64_t>(text)) {
       return *frame;
     }
-    constexpr double most =
+    constexpr double max_whole =
         9'007'199'254'740'992.0;  // 2⁵³: below it doubles are every whole number
     const auto number = parse_number<double>(text);
-    if (!number || !(std::abs(*number) < most) || *number != std::floor(*number)) {
+    if (!number || !(std::abs(*number) < max_whole) || *number != std::floor(*number)) {
       refuse("frame is " + quote(text) + ", expected a whole number");
     }
     return static_cast<std::int64_t>(*number);

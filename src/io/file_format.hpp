@@ -27,7 +27,7 @@ enum class FileFormat {
 /// The format that a name means by its end, in capitals or not; nothing by most ends, and by none.
 FIBER_PROXIMITY_EXPORT std::optional<FileFormat> format_meant(const std::string& path);
 
-/// The same; CSV where it means nothing.
+/// The format that a name means by its end; CSV where it means nothing.
 FIBER_PROXIMITY_EXPORT FileFormat format_of(const std::string& path);
 
 /// The format of a file with a name of CSV, by its first bytes, for an error; "" if they are none

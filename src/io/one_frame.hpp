@@ -17,7 +17,8 @@ namespace fiber {
 /// @throws std::invalid_argument if it cannot hold this
 FIBER_PROXIMITY_EXPORT std::string encoded(FileFormat format, const FiberFile& file);
 
-/// What of a frame a format of one frame has no place for, such as names: a sentence each.
+/// Tells, in a sentence each, which parts of a frame, such as names, a format of one frame has no
+/// place for.
 FIBER_PROXIMITY_EXPORT std::vector<std::string> losses(FileFormat format, const FiberFrame& frame);
 
 // ---- for those that write them; `end` is how names of the format end

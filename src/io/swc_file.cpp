@@ -101,13 +101,13 @@ class SwcReader {
     throw FileError(name_, line, reason);
   }
 
-  std::int64_t whole(const char* name, std::string_view word, std::int64_t least) const {
+  std::int64_t whole(const char* name, std::string_view word, std::int64_t min) const {
     const auto value = parse_number<std::int64_t>(word);
-    if (!value || *value < least) {
+    if (!value || *value < min) {
       refuse(line_, std::string(name) + " is " + quote(word) + ", expected a whole number" +
-                        (least == 0    ? " from 0"
-                         : least == -1 ? " from -1"
-                                       : ""));
+                        (min == 0    ? " from 0"
+                         : min == -1 ? " from -1"
+                                     : ""));
     }
     return *value;
   }

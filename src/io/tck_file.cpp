@@ -6,6 +6,7 @@
 
 #include "fiber_proximity/io/fiber_formats.hpp"
 #include "src/io/bytes.hpp"
+#include "src/io/csv_row.hpp"
 #include "src/io/millimetres.hpp"
 #include "src/io/number.hpp"
 #include "src/io/one_frame.hpp"
@@ -16,14 +17,6 @@ namespace fiber {
 namespace {
 
 constexpr std::string_view tck_signature = "mrtrix tracks";
-
-std::string_view without_blanks(std::string_view text) {
-  constexpr const char* blanks = " \t\r";
-  const std::size_t begin = text.find_first_not_of(blanks);
-  return begin == std::string_view::npos
-             ? std::string_view()
-             : text.substr(begin, text.find_last_not_of(blanks) + 1 - begin);
-}
 
 class TckReader {
  public:
@@ -53,15 +46,14 @@ class TckReader {
       if (end == std::string_view::npos) {
         refuse("the header has no line END");
       }
-      const std::string_view text = without_blanks(bytes_.substr(position, end - position));
+      const std::string_view text = trimmed(bytes_.substr(position, end - position));
       position = end + 1;
       if (text == "END") {
         break;
       }
       const std::size_t colon = text.find(':');
       if (line > 1 && colon != std::string_view::npos) {
-        take_field(without_blanks(text.substr(0, colon)), without_blanks(text.substr(colon + 1)),
-                   line);
+        take_field(trimmed(text.substr(0, colon)), trimmed(text.substr(colon + 1)), line);
       }
     }
     if (!has_type_ || !begin_) {
@@ -86,9 +78,8 @@ class TckReader {
                             ", expected Float32LE, Float32BE, Float64LE or Float64BE");
       }
     } else if (key == "file") {
-      begin_ = value.substr(0, 2) == ". "
-                   ? parse_number<std::size_t>(without_blanks(value.substr(2)))
-                   : std::nullopt;
+      begin_ = value.substr(0, 2) == ". " ? parse_number<std::size_t>(trimmed(value.substr(2)))
+                                          : std::nullopt;
       if (!begin_) {
         throw FileError(
             name_, line,

@@ -211,7 +211,8 @@ void put(std::string& header, std::size_t byte, Value value) {
   header.replace(byte, bytes.size(), bytes);
 }
 
-/// Of voxels of 1 mm whose corner is the origin, so that points are where they are.
+/// The header that write_trk() writes: its voxels are of 1 mm and begin at the origin, so that
+/// points stay where they are.
 std::string trk_header(std::size_t tracks, bool has_radius) {
   std::string header(trk_header_size, '\0');
   header.replace(0, trk_signature.size(), trk_signature);

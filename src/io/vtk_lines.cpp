@@ -110,7 +110,7 @@ void VtkLines::add_point(const VtkPiece& piece, std::size_t line, std::size_t id
 }
 
 void VtkLines::skip_array(std::string_view array) {
-  // What write_vtp() writes for people: the lines tell it as well.
+  // write_vtp() writes it for people; the lines tell it as well.
   if (array != "fiber") {
     arrays_.push_back(quote(array));
   }

@@ -191,7 +191,7 @@ class VtpReader {
     const NumberType type = type_of(element);
     const std::string_view format = attribute(element, "format");
     std::string& bytes = decoded_.emplace_back();
-    // What errors quote stays as long as this.
+    // Errors quote words of this text, so it outlives them.
     const std::string inline_text = format == "appended" ? "" : text_in(element);
     if (format == "ascii") {
       if (const auto wrong = append_numbers(bytes, type, inline_text)) {

@@ -26,7 +26,7 @@ class ZipArchive {
 
   const std::vector<Member>& members() const { return members_; }
 
-  /// What a member holds.
+  /// Unpacks the content of a member.
   /// @throws FileError for one that is damaged
   std::string unpack(const Member& member) const;
 

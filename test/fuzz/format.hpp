@@ -23,7 +23,7 @@ inline std::string written(Write& write, const FiberFile& file) {
   return stream.str();
 }
 
-/// What is read is written, and read and written again as the same bytes.
+/// Sees that a file that was read is written, and read and written again as the same bytes.
 inline void check_written(Read& read, Write& write, const FiberFile& file) {
   const std::string first = written(write, file);
   if (first.empty()) {

@@ -70,8 +70,8 @@ inline FiberFile read_text(Read& read, const std::string& text, const ReadOption
   return read(stream, "a", options);
 }
 
-/// What a file is refused with, without its name; "accepted" if it is not. Any other exception than
-/// a FileError fails the test.
+/// Returns the error that a file is refused with, without its name; "accepted" if it is not
+/// refused. Any other exception than a FileError fails the test.
 inline std::string refusal(Read& read, const std::string& text, const ReadOptions& options = {}) {
   try {
     read_text(read, text, options);
@@ -161,7 +161,7 @@ inline void expect_same_fibers(const FiberAssembly& fibers, const FiberAssembly&
   }
 }
 
-/// What is left of fibres that were written in millimetres and single precision.
+/// Rounds fibres as a file of millimetres in single precision does.
 inline FiberAssembly in_float_millimetres(const FiberAssembly& fibers, bool has_radii) {
   const auto rounded = [](double metres) {
     return static_cast<double>(static_cast<float>(1000.0 * metres)) / 1000.0;

@@ -7,7 +7,7 @@
 namespace fiber::test {
 namespace {
 
-/// What a header says that tests change.
+/// Holds the fields of a header that tests change.
 struct TrkHeader {
   std::vector<std::string> scalars{};
   std::vector<std::string> properties{};

@@ -15,7 +15,7 @@ const std::string vtk_text = vtk_begin +
 const std::string vtk_radius_text =
     "POINT_DATA 5\nSCALARS radius float 1\nLOOKUP_TABLE default\n.5 .25 8 1 2\n";
 
-/// The same with the radius among others, of a version, in bytes.
+/// The file of vtk_text in bytes, of version 3 or 5, with the radius among other arrays.
 std::string vtk_binary(bool has_offsets) {
   Bytes bytes(ByteOrder::BIG);
   bytes.letters(has_offsets ? "# vtk DataFile Version 5.1\nx\n" : vtk_begin)

@@ -18,7 +18,7 @@ inline std::vector<double> vtk_coordinates() {
 inline const std::vector<std::uint64_t> vtk_ids{3, 0, 1, 1, 4};
 inline const std::vector<double> vtk_radii{0.5, 0.25, 8, 1, 2};
 
-/// What is read of these, with the radii or with a default one: the lines meet at point 1.
+/// The fibres of these lines, with the radii or with a default one; they meet at point 1.
 inline FiberAssembly vtk_fibers(bool has_radii, double radius = 0.0) {
   const auto point = [](int i) { return Eigen::Vector3d(i, -i, 0.5 * i); };
   FiberTopology topology;
