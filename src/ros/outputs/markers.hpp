@@ -30,7 +30,7 @@ struct MarkerOptions {
   bool show_legend = false;
   bool show_passed = false;  ///< contacts that came and went, if there are any to show
   bool show_objects = true;
-  double reach = 0.3;          ///< [m] objects whose boxes are further from all fibres are left out
+  double reach = 0.3;  ///< [m] objects whose boxes are further from all fibres are left out
   /// [m] Contacts whose true distance may be larger are possible only, and paler.
   double certain_margin = std::numeric_limits<double>::infinity();
   double free_distance = 0.1;  ///< [m] from here on the distance of an object is green; above 0
