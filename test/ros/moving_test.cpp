@@ -145,7 +145,7 @@ class MovingTest : public node_test::SimulatedTimeTest {
     pass(period);
     told = answer();
     ASSERT_NE(told, nullptr);
-    EXPECT_EQ(told->environment.touching > 0 || told->environment.expected, true);
+    EXPECT_TRUE(told->environment.touching > 0 || told->environment.expected);
   }
 
   static void apply(Obstacle obstacle, std::int8_t operation) {
@@ -196,7 +196,7 @@ TEST_F(MovingTest, AnArmThatTurnsIsExpectedBeforeItTouches) {
   constexpr double rate = 0.8;  // [rad/s]
   hang_cable({0.0, 0.5, 0});
   arm_ = [](double time) { return at({0, 0, 0}, rate * time); };
-  // Its corner comes first: with the axis of the cable at (u, v) of the arm's frame, u along it.
+  // Where the arm's side is so far from the cable's axis.
   const double half_width = std::asin((0.02 + radius + margin) / 0.5);
   expect_until((std::acos(0.0) - half_width) / rate);
 }

@@ -33,8 +33,7 @@ class World {
  public:
   /// Applies all changes, one after the other, or none.
   /// @throws std::invalid_argument naming the object: as validate(ObjectChange), and for a REMOVE
-  /// or
-  ///         MOVE of an object that is not there
+  ///         or MOVE of an object that is not there
   void apply(const std::vector<ObjectChange>& changes);
 
   bool has(const std::string& name) const;
