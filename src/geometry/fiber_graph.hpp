@@ -5,7 +5,6 @@
 #include <memory>
 #include <vector>
 
-#include "fiber_proximity/export.hpp"
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "fiber_proximity/geometry/fiber_topology.hpp"
 
@@ -16,7 +15,7 @@ namespace fiber {
 /// A closed fibre is stored with its first point again behind its last one, and its two ends are a
 /// joint: so all joints are alike, and the segment that starts at point p ends at point p + 1 as in
 /// a chain. Points are those that are stored, except where they are called given.
-class FIBER_PROXIMITY_EXPORT FiberGraph {
+class FiberGraph {
  public:
   /// A point that is joined with others.
   struct JointPoint {

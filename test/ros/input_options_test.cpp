@@ -74,10 +74,11 @@ TEST(InputOptions, EveryErrorNamesKeyValueAndWhatIsAllowed) {
             })),
             "has no key 'topic'");
   EXPECT_EQ(error_with("topic", 7), "key 'topic' is 7, it must be a string");
-  EXPECT_EQ(error_with("colour", "red"),
-            "has the unknown key 'colour', known are: topic, type, name, radius, uncertainty, "
-            "missing_points, required, max_pairs, max_time, namespace, radius_from_marker, "
-            "weld_tolerance");
+  EXPECT_EQ(
+      error_with("colour", "red"),
+      "has the unknown key 'colour', known are: topic, type, name, radius, uncertainty, "
+      "close_rings, missing_points, required, max_pairs, max_time, namespace, radius_from_marker, "
+      "weld_tolerance");
   EXPECT_EQ(error_with("type", "std_msgs/String"),
             "unknown input type 'std_msgs/String', known are: fiber_proximity/FiberArray, "
             "sensor_msgs/PointCloud2, sensor_msgs/PointCloud, geometry_msgs/PoseArray, "

@@ -207,13 +207,13 @@ TEST_F(UncertaintyNodeTest, AContactIsCertainByTheTimeThatToldPointsAreWellWithi
   config.prediction = 1.0;
   config.prediction_frames = 2;
   node_test::set_parameters(config);
-  // The gap to the known cable at y = 0.045 is 0.335 m. One of 0.03 m is within the margin wherever
-  // two tracked fibres are.
+  // The gap to the known cable at y = 0 is 0.38 m. One of 0.03 m is within the margin wherever two
+  // tracked fibres are.
   const fiber_proximity::TimeToContact* const told = told_of_an_approach(0.05);
   ASSERT_NE(told, nullptr);
   EXPECT_TRUE(told->different_fibers.certain);
-  EXPECT_NEAR(told->different_fibers.time_upper, (0.335 - 0.03) / 0.5, 1e-4);
-  EXPECT_GE(told->different_fibers.time_upper, (0.335 - 0.03) / 0.5 - 1e-6);
+  EXPECT_NEAR(told->different_fibers.time_upper, (0.38 - 0.03) / 0.5, 1e-4);
+  EXPECT_GE(told->different_fibers.time_upper, (0.38 - 0.03) / 0.5 - 1e-6);
 }
 
 }  // namespace
