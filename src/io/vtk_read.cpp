@@ -275,7 +275,8 @@ class VtkReader {
       refuse("the array " + quote(name) + " has " + text_of(numbers.size()) + " numbers for " +
              text_of(piece_.points.numbers.size() / 3) + " points");
     }
-    (is_radius ? piece_.radii : piece_.joints) = {numbers, std::string(name) + at_byte(begin)};
+    auto& taken = is_radius ? piece_.radii : piece_.joints;
+    taken = {numbers, std::string(name) + at_byte(begin)};
   }
 
   /// The words up to the line's end, without blanks around them.
