@@ -13,6 +13,7 @@
 #include "fiber_proximity/ros/conversions.hpp"
 #include "src/ros/environment/cloud_cells.hpp"
 #include "src/ros/environment/obstacle_change.hpp"
+#include "src/ros/inputs/closed_fibers.hpp"
 #include "src/ros/inputs/marker_input.hpp"
 #include "src/ros/inputs/missing_points.hpp"
 #include "src/ros/inputs/point_messages.hpp"
@@ -26,6 +27,7 @@ using namespace fiber_proximity_ros;
 using fiber::test::MessageStream;
 
 struct Options {
+  bool close_rings = false;
   MissingPoints missing_points = MissingPoints::REFUSE;
   MarkerInputOptions marker;
 };
@@ -37,6 +39,7 @@ Options options_of(std::uint8_t bits) {
   options.missing_points = policies[bits & 3U];
   options.marker.radius_from_marker = (bits & 4U) != 0;
   options.marker.marker_namespace = (bits & 8U) != 0 ? "cable" : "";
+  options.close_rings = (bits & 16U) != 0;
   return options;
 }
 
@@ -69,6 +72,9 @@ void try_fibers(MessageStream& stream, const Options& options) {
   FiberBuffer buffer;
   if (!read(message, options, buffer)) {
     return;
+  }
+  if (options.close_rings) {
+    close_rings(buffer);
   }
   MissingPointCounts counts;
   resolve_missing_points(options.missing_points, buffer, counts);
@@ -163,7 +169,10 @@ fiber_proximity::FiberArray fiber_array(bool is_complete) {
   for (int i = 0; i < 7; ++i) {
     message.points.push_back(point(is_complete || i != 4 ? 0.1 * i : missing, 0.2));
     message.radii.push_back(0.01 + 0.001 * i);
+    message.joints.push_back(i == 1 || i == 2 ? 3 : -1);
   }
+  message.points[2] = message.points[1];  // where the fibres are joined
+  message.closed = {0, 1};
   return message;
 }
 

@@ -35,6 +35,7 @@ include_directories(SYSTEM ${generated})
 fuzzed_library(fuzzed_messages UNITY 4
   src/ros/environment/cloud_cells.cpp
   src/ros/support/conversions.cpp
+  src/ros/inputs/closed_fibers.cpp
   src/ros/inputs/marker_fibers.cpp
   src/ros/inputs/marker_input.cpp
   src/ros/inputs/missing_points.cpp
