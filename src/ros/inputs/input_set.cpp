@@ -58,6 +58,9 @@ bool InputSet::update() {
     malloc_trim(0);  // what its fibres have taken is much
   }
   merged_is_old_ = merged_is_old_ || changed;
+  if (can_be_uncertain_) {
+    find_uncertainties();
+  }
   if (!is_fresh()) {
     header_.frame_id = frame_.name();
     header_.stamp = last_time_;
@@ -172,23 +175,19 @@ void InputSet::merge() {
   work_time_ += stopwatch.seconds();
 }
 
-std::vector<double> InputSet::uncertainties() const {
-  std::vector<double> uncertainties;
-  if (!can_be_uncertain_) {
-    return uncertainties;
-  }
+void InputSet::find_uncertainties() {
+  uncertainties_.clear();
   bool is_any_uncertain = false;
   for (const std::unique_ptr<Input>& input : inputs_) {
     const std::size_t count = input->is_fresh() ? input->fibers().fiber_count() : 0;
     for (std::size_t fiber = 0; fiber < count; ++fiber) {
-      uncertainties.push_back(input->uncertainty(fiber, last_time_));
-      is_any_uncertain = is_any_uncertain || uncertainties.back() > 0.0;
+      uncertainties_.push_back(input->uncertainty(fiber, last_time_));
+      is_any_uncertain = is_any_uncertain || uncertainties_.back() > 0.0;
     }
   }
   if (!is_any_uncertain) {
-    uncertainties.clear();
+    uncertainties_.clear();
   }
-  return uncertainties;
 }
 
 }  // namespace fiber_proximity_ros

@@ -61,7 +61,7 @@ class InputSet {
 
   /// [m] By fibre of those that fibers() has returned last, how far its true points may be from the
   /// told ones at the time of the last update; empty where all are told to be exact.
-  std::vector<double> uncertainties() const;
+  const std::vector<double>& uncertainties() const { return uncertainties_; }
 
   /// Fixed frame, and the newest stamp among the fibres; without any, the time of the last update.
   const std_msgs::Header& header() const { return header_; }
@@ -78,6 +78,7 @@ class InputSet {
   void watch_time();
   bool accept_placed();
   void merge();
+  void find_uncertainties();
 
   FixedFrame frame_;
   const fiber::QueryOptions& answered_;
@@ -90,6 +91,7 @@ class InputSet {
   bool was_reset_ = false;
   bool merged_is_old_ = false;
   MergedFibers merged_;
+  std::vector<double> uncertainties_;
   std_msgs::Header header_;
   double work_time_ = 0.0;
   // Last: their job and their callbacks use all of the above.
