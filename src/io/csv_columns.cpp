@@ -1,17 +1,10 @@
 #include "src/io/csv_columns.hpp"
 
 #include "src/io/csv_row.hpp"
+#include "src/text/lower_case.hpp"
 
 namespace fiber {
 namespace {
-
-std::string in_small_letters(std::string_view text) {
-  std::string small(trimmed(text));
-  for (char& letter : small) {
-    letter = letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
-  }
-  return small;
-}
 
 /// @return COLUMNS for what means nothing here
 CsvColumns::Column column_called(const std::string& name) {
@@ -30,7 +23,7 @@ CsvColumns columns_of(const std::vector<std::string_view>& names, char separator
   columns.count = names.size();
   columns.places.fill(CsvColumns::none);
   for (std::size_t i = 0; i < names.size(); ++i) {
-    const std::string name = in_small_letters(names[i]);
+    const std::string name = lower_case(trimmed(names[i]));
     const CsvColumns::Column column = column_called(name);
     if (column == CsvColumns::COLUMNS) {
       if (!name.empty()) {

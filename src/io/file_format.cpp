@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "fiber_proximity/io/file.hpp"
+#include "src/text/lower_case.hpp"
 #include "src/text/quote.hpp"
 
 namespace fiber {
@@ -71,10 +72,7 @@ const std::vector<KnownFormat>& known_formats() {
 
 /// @return nullptr for a name that means no format
 const KnownFormat* format_of_name(const std::string& path) {
-  std::string end = std::filesystem::path(path).extension().string();
-  for (char& letter : end) {
-    letter = letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
-  }
+  const std::string end = lower_case(std::filesystem::path(path).extension().string());
   for (const KnownFormat& known : known_formats()) {
     if (std::find(known.ends.begin(), known.ends.end(), end) != known.ends.end()) {
       return &known;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "src/io/radii.hpp"
+#include "src/text/lower_case.hpp"
 
 namespace fiber {
 namespace {
@@ -104,10 +105,7 @@ FiberFile to_file(Strands strands, const ReadOptions& options, const std::string
 }
 
 bool is_radius_name(std::string_view name) {
-  std::string small;
-  for (const char letter : name.substr(0, 16)) {
-    small += letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
-  }
+  const std::string small = lower_case(name);
   return small == "radius" || small == "tuberadius";
 }
 
