@@ -1,6 +1,7 @@
 # Rods that move by the effects a scene calls for, and the YAML files of scenes; no ROS.
 
 add_library(fiber_proximity_sim SHARED
+  src/sim/contact/contact_neighbours.cpp
   src/sim/contact/contact_set.cpp
   src/sim/contact/friction_anchors.cpp
   src/sim/contact/impact.cpp

@@ -74,9 +74,6 @@ class Joints {
 
   const std::vector<Joint>& joints() const { return joints_; }
 
-  /// By node: the number of the place that it is joined to, -1 for none, as FiberTopology has them.
-  std::vector<std::int32_t> places(const Rods& rods) const;
-
   /// Makes the nodes of each place have the same position and velocity, those of their centre of
   /// mass, where they differ: rods may have been changed from outside.
   void unite(Rods& rods) const;

@@ -68,6 +68,10 @@ struct Rods : RodState {
   /// Empty: no rod is closed.
   std::vector<std::uint8_t> closed;
 
+  /// By node, as FiberTopology has them: nodes of the same number are one place, that of a joint or
+  /// of a closed rod's ends; negative: the node is not joined. Joints keeps them. Empty: none is.
+  std::vector<std::int32_t> joints;
+
   std::vector<double> masses;        ///< [kg]
   std::vector<double> rest_lengths;  ///< of edges, 0 at each rod's last node [m]
 

@@ -105,6 +105,16 @@ double allowed_gap(const Rods& rods, const std::vector<PlacedNode>& place) {
   return Joints::max_gap * shortest;
 }
 
+/// Tells the rods which nodes are one place.
+void mark_places(const JointParts& parts, Rods& rods) {
+  rods.joints.assign(rods.positions.size(), -1);
+  for (std::size_t i = 0; i < parts.places.size(); ++i) {
+    for (const PlacedNode& each : parts.places[i]) {
+      rods.joints[each.node] = static_cast<std::int32_t>(i);
+    }
+  }
+}
+
 /// The place that has a node, or the end.
 auto place_of(JointParts& parts, std::uint32_t node) {
   return std::find_if(parts.places.begin(), parts.places.end(), [&](const auto& place) {
@@ -179,6 +189,7 @@ std::uint32_t Joints::add(Rods& rods, const Joint& joint) {
   }
   parts_->places.push_back(place);
   parts_->joints.push_back(static_cast<std::int32_t>(index));
+  mark_places(*parts_, rods);
   unite(rods);
   if (joint.kind == Kind::WELD) {
     add_welds(rods, place, parts_->welds);
@@ -217,6 +228,7 @@ void Joints::close(Rods& rods, std::uint32_t rod) {
   rods.closed[rod] = 1;
   parts_->places.push_back(place);
   parts_->joints.push_back(-1);
+  mark_places(*parts_, rods);
   unite(rods);
   if (options_.has_bend || !rods.angles.empty()) {
     Weld seam = make_weld(rods, {{{rod, last - 1, last, 1.0}, {rod, first, first, 1.0}}},
@@ -228,16 +240,6 @@ void Joints::close(Rods& rods, std::uint32_t rod) {
     seam.is_seam = true;
     parts_->welds.push_back(seam);
   }
-}
-
-std::vector<std::int32_t> Joints::places(const Rods& rods) const {
-  std::vector<std::int32_t> places(rods.positions.size(), -1);
-  for (std::size_t i = 0; i < parts_->places.size(); ++i) {
-    for (const PlacedNode& each : parts_->places[i]) {
-      places[each.node] = static_cast<std::int32_t>(i);
-    }
-  }
-  return places;
 }
 
 void Joints::unite(Rods& rods) const {

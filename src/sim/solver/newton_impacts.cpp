@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <map>
 
 #include "src/sim/solver/newton.hpp"
 
@@ -20,14 +21,24 @@ struct StruckNode {
   double spin = 0.0;
 };
 
-/// The nodes of some impacts, each once.
-std::vector<StruckNode> struck_nodes(const Rods& rods, const std::vector<Impact>& impacts) {
+/// The nodes of some impacts and those joined with them, each once.
+/// @param joints null for none
+std::vector<StruckNode> struck_nodes(const Rods& rods, const std::vector<Impact>& impacts,
+                                     const JointParts* joints) {
   std::vector<StruckNode> nodes;
   for (const Impact& impact : impacts) {
     const ContactPoints& points = impact.points;
     nodes.insert(nodes.end(), {{points.rod_a, points.edge_a}, {points.rod_a, points.edge_a + 1}});
     if (points.is_of_rods()) {
       nodes.insert(nodes.end(), {{points.rod_b, points.edge_b}, {points.rod_b, points.edge_b + 1}});
+    }
+  }
+  for (std::size_t i = 0, struck = nodes.size(); joints != nullptr && i < struck; ++i) {
+    const std::int32_t place = rods.joints[nodes[i].node];
+    if (place >= 0) {
+      for (const PlacedNode& each : joints->places[static_cast<std::size_t>(place)]) {
+        nodes.push_back({each.rod, each.node});
+      }
     }
   }
   std::sort(nodes.begin(), nodes.end(),
@@ -40,6 +51,49 @@ std::vector<StruckNode> struck_nodes(const Rods& rods, const std::vector<Impact>
   }
   return nodes;
 }
+
+/// Makes joined nodes as heavy as their places while impulses act on them, and lets all nodes of a
+/// place have the impulses of each.
+class StruckPlaces {
+ public:
+  /// @param struck nodes with all that are joined with them
+  StruckPlaces(Rods& rods, const std::vector<StruckNode>& struck) : rods_(rods), struck_(struck) {
+    for (const StruckNode& each : struck) {
+      masses_.push_back(rods.masses[each.node]);
+      if (rods.joints[each.node] >= 0) {
+        place_masses_[rods.joints[each.node]] += rods.masses[each.node];
+      }
+    }
+    for (const StruckNode& each : struck) {
+      if (rods.joints[each.node] >= 0) {
+        rods.masses[each.node] = place_masses_[rods.joints[each.node]];
+      }
+    }
+  }
+
+  void finish() {
+    std::map<std::int32_t, Vector3d> changes;
+    for (std::size_t i = 0; i < struck_.size(); ++i) {
+      const StruckNode& each = struck_[i];
+      rods_.masses[each.node] = masses_[i];
+      if (rods_.joints[each.node] >= 0) {
+        changes.try_emplace(rods_.joints[each.node], Vector3d::Zero()).first->second +=
+            rods_.velocities[each.node] - each.velocity;
+      }
+    }
+    for (const StruckNode& each : struck_) {
+      if (rods_.joints[each.node] >= 0) {
+        rods_.velocities[each.node] = each.velocity + changes.at(rods_.joints[each.node]);
+      }
+    }
+  }
+
+ private:
+  Rods& rods_;
+  const std::vector<StruckNode>& struck_;
+  std::vector<double> masses_;  // by struck node [kg]
+  std::map<std::int32_t, double> place_masses_;
+};
 
 /// The largest part, up to 1, of a change of velocities and spins that adds no more kinetic energy
 /// than is allowed [J].
@@ -95,8 +149,14 @@ void NewtonSolver::resolve_impacts(Rods& rods, const Problem& problem,
     if (std::none_of(own.begin(), own.end(), [](const auto& impact) { return impact.has_begun; })) {
       continue;
     }
-    const std::vector<StruckNode> before = struck_nodes(rods, own);
-    resolve(rods, coefficient, own);
+    const std::vector<StruckNode> before = struck_nodes(rods, own, problem.joints);
+    if (problem.joints != nullptr) {
+      StruckPlaces places(rods, before);
+      resolve(rods, coefficient, own);
+      places.finish();
+    } else {
+      resolve(rods, coefficient, own);
+    }
     const double share =
         allowed_share(before, rods, std::max(0.0, max_kinetic_[island] - kinetic[island]));
     for (const StruckNode& each : before) {
