@@ -55,8 +55,10 @@ add_library(fiber_proximity_mpi SHARED
   src/mpi/fiber_writer.cpp
   src/mpi/frame_files.cpp
   src/mpi/gather_fibers.cpp
+  src/mpi/global_joints.cpp
   src/mpi/halo_exchange.cpp
   src/mpi/hdf5_file.cpp
+  src/mpi/joined_fibers.cpp
   src/mpi/kth_smallest.cpp
   src/mpi/load_balance.cpp
   src/mpi/local_fibers.cpp
@@ -64,6 +66,7 @@ add_library(fiber_proximity_mpi SHARED
   src/mpi/motion_search.cpp
   src/mpi/ordered_pairs.cpp
   src/mpi/owned_fibers.cpp
+  src/mpi/part_topology.cpp
   src/mpi/partial_file.cpp
   src/mpi/partition.cpp
   src/mpi/piece_boxes.cpp

@@ -195,6 +195,11 @@ void FiberAssembly::exchange_points(std::vector<Eigen::Vector3d>& points) {
   }
 }
 
+void FiberAssembly::join(std::shared_ptr<const FiberGraph> graph) {
+  assert(graph->offsets() == offsets_ && graph->topology().closed.empty());
+  graph_ = std::move(graph);
+}
+
 FiberTopology FiberAssembly::topology() const {
   return graph_ == nullptr ? FiberTopology() : graph_->topology();
 }

@@ -36,9 +36,8 @@ void check_sizes(const std::vector<std::uint32_t>& offsets, const FiberTopology&
   }
   for (std::size_t fiber = 0; fiber < topology.closed.size(); ++fiber) {
     const std::uint32_t count = offsets[fiber + 1] - offsets[fiber];
-    if (topology.closed[fiber] != 0 && count < 3) {
-      refuse_topology("fibre ", fiber, ": is closed and has ", count,
-                      " points, a closed fibre needs at least 3");
+    if (topology.closed[fiber] != 0 && count < FiberGraph::min_closed_points) {
+      throw std::invalid_argument(FiberGraph::error_of_closed(fiber, count));
     }
   }
 }
@@ -68,8 +67,10 @@ void for_each_number(const Points& points, const Call& call) {
 }
 
 std::string name_of(const FiberGraph::JointPoint& point,
-                    const std::vector<std::uint32_t>& given_offsets) {
-  return "fibre " + std::to_string(point.fiber) + ", point " +
+                    const std::vector<std::uint32_t>& given_offsets,
+                    const std::vector<std::uint64_t>& numbers) {
+  const std::uint64_t fiber = numbers.empty() ? point.fiber : numbers[point.fiber];
+  return "fibre " + std::to_string(fiber) + ", point " +
          std::to_string(point.given - given_offsets[point.fiber]);
 }
 
@@ -209,15 +210,26 @@ double FiberGraph::allowed_distance(const FiberAssembly& fibers, std::uint32_t j
   return allowed;
 }
 
+std::string FiberGraph::error_of_closed(std::uint64_t fiber, std::uint64_t point_count) {
+  return "fibre " + std::to_string(fiber) + ": is closed and has " + std::to_string(point_count) +
+         " points, a closed fibre needs at least " + std::to_string(min_closed_points);
+}
+
+void FiberGraph::require_repeated(std::uint64_t fiber, const Eigen::Vector3d& first,
+                                  const Eigen::Vector3d& repeated) {
+  if (first != repeated) {
+    refuse_topology("fibre ", fiber, ": is closed, and its first point is repeated ",
+                    norm_of(repeated - first), " m away; repeat it where it is, or leave it out");
+  }
+}
+
 void FiberGraph::require_joints_meet(const FiberAssembly& fibers,
-                                     const std::vector<Eigen::Vector3d>& points) const {
+                                     const std::vector<Eigen::Vector3d>& points,
+                                     const std::vector<std::uint64_t>& numbers) const {
   const bool are_stored = points.size() == offsets_.back();
   for (std::uint32_t fiber = 0; are_stored && fiber + 1 < offsets_.size(); ++fiber) {
-    const Eigen::Vector3d& first = points[offsets_[fiber]];
-    const Eigen::Vector3d& repeated = points[offsets_[fiber + 1] - 1];
-    if (is_closed(fiber) && first != repeated) {
-      refuse_topology("fibre ", fiber, ": is closed, and its first point is repeated ",
-                      norm_of(repeated - first), " m away; repeat it where it is, or leave it out");
+    if (is_closed(fiber)) {
+      require_repeated(fiber, points[offsets_[fiber]], points[offsets_[fiber + 1] - 1]);
     }
   }
   const auto at = [&](const JointPoint& point) -> const Eigen::Vector3d& {
@@ -234,9 +246,9 @@ void FiberGraph::require_joints_meet(const FiberAssembly& fibers,
       const double allowed = allowed_distance(fibers, joint, at(first).cwiseAbs().maxCoeff());
       if (distance > allowed) {
         refuse_topology("joint ", topology_.joints[first.given], ": ",
-                        name_of(first, given_offsets_), " and ", name_of(point, given_offsets_),
-                        " are ", distance, " m apart; points that are joined must lie within ",
-                        allowed, " m, ",
+                        name_of(first, given_offsets_, numbers), " and ",
+                        name_of(point, given_offsets_, numbers), " are ", distance,
+                        " m apart; points that are joined must lie within ", allowed, " m, ",
                         topology_.joint_tolerance
                             ? "the joint_tolerance"
                             : "the largest radius that meets there or 1e-6 of the largest "

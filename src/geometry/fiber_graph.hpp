@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
@@ -147,12 +148,23 @@ class FiberGraph {
     return found;
   }
 
-  /// @param fibers of this graph, whose radii count
-  /// @param points [m] where they are now, those that were given or those that are stored
+  /// A closed fibre needs so many points, each given once.
+  static constexpr std::uint32_t min_closed_points = 3;
+
+  /// What is said of a closed fibre that has fewer.
+  static std::string error_of_closed(std::uint64_t fiber, std::uint64_t point_count);
+
+  /// @throws std::invalid_argument for a closed fibre whose repeated point is not its first one
+  static void require_repeated(std::uint64_t fiber, const Eigen::Vector3d& first,
+                               const Eigen::Vector3d& repeated);
+
+  /// @param fibers  of this graph, whose radii count
+  /// @param points  [m] where they are now, those that were given or those that are stored
+  /// @param numbers what fibres are called in a message, by fibre; empty: as they are counted
   /// @throws std::invalid_argument for points of a joint that do not lie within its tolerance, and
   ///         for a closed fibre whose repeated point is not its first one
-  void require_joints_meet(const FiberAssembly& fibers,
-                           const std::vector<Eigen::Vector3d>& points) const;
+  void require_joints_meet(const FiberAssembly& fibers, const std::vector<Eigen::Vector3d>& points,
+                           const std::vector<std::uint64_t>& numbers = {}) const;
 
  private:
   FiberGraph(const std::vector<std::uint32_t>& given_offsets, const FiberTopology& topology);

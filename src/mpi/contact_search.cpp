@@ -35,7 +35,8 @@ QueryOptions ContactSearch::options_here(const QueryOptions& options) const {
 void ContactSearch::find_inner(const QueryOptions& options, std::uint64_t count,
                                DistributedResult& result) {
   const Deadline deadline(options.deadline);
-  const RankPairs pairs{ranks_, fibers_->own(), halo_};
+  const JoinedPairs joined(fibers_->joined(), options);
+  const RankPairs pairs{ranks_, fibers_->own(), halo_, joined};
   QueryOptions here = options_here(options);
   across_.clear();
   constexpr std::uint64_t max_count = std::numeric_limits<std::uint32_t>::max();
@@ -115,14 +116,16 @@ void ContactSearch::find_across(const FiberRuns& halo, const QueryOptions& optio
     }
   }
   sort_by_key(across_);
-  RankPairs{ranks_, own, halo_}.keep_those_of_whole_fibers(options, halo_, across_);
+  const JoinedPairs joined(fibers_->joined(), options);
+  RankPairs{ranks_, own, halo_, joined}.keep_those_of_whole_fibers(options, halo_, across_);
 }
 
 void ContactSearch::find_closest_of_fibers(const std::function<FiberRuns(double)>& halo_within,
                                            const QueryOptions& options, DistributedResult& result) {
   halo_.assign(FiberRuns());
   const QueryOptions here = options_here(options);
-  FiberPairSearch search(ranks_, fibers_->own(), *engine_, halo_, options, here);
+  const JoinedPairs joined(fibers_->joined(), options);
+  FiberPairSearch search({ranks_, fibers_->own(), halo_, joined}, *engine_, options, here);
   const double reach = search.find_inner();
   const FiberRuns halo = halo_within(reach);
   ranks_.throw_on_all(error_in([&] { halo_.assign(halo); }));

@@ -114,17 +114,19 @@ DistributedEngine::DistributedEngine(MPI_Comm ranks, const EngineOptions& option
 
 DistributedEngine::~DistributedEngine() = default;
 
-void DistributedEngine::update(const FiberAssembly& parts, const std::vector<FiberPart>& names) {
+void DistributedEngine::update(const FiberAssembly& parts, const std::vector<FiberPart>& names,
+                               const FiberTopology& topology) {
   state_->has_motion = false;
-  state_->fibers.update(state_->ranks, parts, names, state_->search.load());
+  state_->fibers.update(state_->ranks, parts, names, topology, state_->search.load());
   state_->search.update(state_->fibers);
 }
 
 void DistributedEngine::update_motion(const FiberAssembly& before, const FiberAssembly& after,
-                                      const std::vector<FiberPart>& names) {
+                                      const std::vector<FiberPart>& names,
+                                      const FiberTopology& topology) {
   State& state = *state_;
   state.search.clear();
-  state.fibers.update_motion(state.ranks, before, after, names);
+  state.fibers.update_motion(state.ranks, before, after, names, topology);
   if (!state.motions) {
     state.motions.emplace(state.ranks, state.engine_options);
   }
@@ -193,7 +195,8 @@ DistributedFacts DistributedEngine::facts() const {
           state_->fibers.split_count(),
           state_->fibers.sent_points(),
           state_->lists.search_count(),
-          state_->search.counts()};
+          state_->search.counts(),
+          state_->fibers.joined().fibers().segment_count()};
 }
 
 }  // namespace fiber

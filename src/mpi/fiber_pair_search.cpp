@@ -37,20 +37,20 @@ class FiberPairSearch::Sink final : public PairSink {
   const bool is_across_;
 };
 
-FiberPairSearch::FiberPairSearch(const Communicator& ranks, const LocalFibers& own,
-                                 const RunTreeEngine& engine, const LocalFibers& halo,
+FiberPairSearch::FiberPairSearch(const RankPairs& pairs, const RunTreeEngine& engine,
                                  const QueryOptions& options, const QueryOptions& here)
-    : ranks_(ranks),
-      own_(own),
+    : pairs_(pairs),
+      ranks_(pairs.ranks),
+      own_(pairs.own),
       engine_(engine),
-      halo_(halo),
+      halo_(pairs.halo),
       options_(options),
       deadline_(options.deadline),
-      inner_test_(own.fibers(), here),
-      own_ids_(own),
-      closest_(count_fiber_pairs(ranks, own, options.pairing), options.margin),
-      own_runs_(own),
-      tries_left_(own.fibers().segment_count()),
+      inner_test_(own_.fibers(), here),
+      own_ids_(own_),
+      closest_(count_fiber_pairs(ranks_, own_, options.pairing), options.margin),
+      own_runs_(own_),
+      tries_left_(own_.fibers().segment_count()),
       pairs_left_(QueryLimits(options).pairs) {}
 
 double FiberPairSearch::find_inner() {
@@ -190,11 +190,16 @@ void FiberPairSearch::keep(const Pair& pair, const Contact& contact) {
   leave_out(closest_.keep({{contact.distance, pair.a, pair.b}, contact, true, pair.is_across}));
 }
 
-/// Whether the length between the two along the whole fibre is too short.
-bool FiberPairSearch::is_left_out(const Pair& pair, const Contact& contact) const {
+/// Whether the length between the two along the whole fibre is too short, or joints leave them out.
+bool FiberPairSearch::is_left_out(const Pair& pair, const Contact& contact) {
+  if (const std::optional<PointPair> points = pairs_.joined.points_of(pair.a, pair.b)) {
+    std::uint64_t loop_steps = 0;
+    const bool is_none = pairs_.joined.are_left_out(*points, loop_steps);
+    take_loop_steps(loop_steps);
+    return is_none;
+  }
   return pair.a.fiber == pair.b.fiber && options_.neighbour_skip_length.value_or(0.0) > 0.0 &&
-         RankPairs{ranks_, own_, halo_}.are_left_out(options_, contact,
-                                                     pair.is_across ? halo_ : own_);
+         pairs_.are_left_out(options_, contact, pair.is_across ? halo_ : own_);
 }
 
 /// Own segments and the halo's, those that follow each other as one stretch: it tells of a loop
@@ -252,8 +257,12 @@ bool FiberPairSearch::makes_loop(PointPair along, const PairDistance& distance) 
   std::uint64_t loop_steps = 0;
   const bool makes = loops_ ? loops_->makes_loop(along, distance.nearest, loop_steps)
                             : !inner_test_.lacks_loop(along, distance, loop_steps);
-  pairs_left_ -= std::min(pairs_left_, loop_steps / QueryLimits::loop_steps_per_pair);
+  take_loop_steps(loop_steps);
   return makes;
+}
+
+void FiberPairSearch::take_loop_steps(std::uint64_t loop_steps) {
+  pairs_left_ -= std::min(pairs_left_, loop_steps / QueryLimits::loop_steps_per_pair);
 }
 
 /// The closest ones first, then four times as many: of most fibres the first one decides.

@@ -21,12 +21,12 @@ namespace fiber {
 /// about where it takes others to know if there is a loop between them.
 class FiberPairSearch {
  public:
-  /// @param own     fibres of this rank, and the engine that has them
-  /// @param halo    gets what others send
+  /// @param pairs   of this rank; their halo gets what others send
+  /// @param engine  has the rank's own fibres
   /// @param options those of the query
   /// @param here    the same for stretches of fibres
-  FiberPairSearch(const Communicator& ranks, const LocalFibers& own, const RunTreeEngine& engine,
-                  const LocalFibers& halo, const QueryOptions& options, const QueryOptions& here);
+  FiberPairSearch(const RankPairs& pairs, const RunTreeEngine& engine, const QueryOptions& options,
+                  const QueryOptions& here);
 
   /// Looks for pairs among own segments. Collective.
   /// @return [m] how close segments of others must be to matter
@@ -65,12 +65,14 @@ class FiberPairSearch {
   void offer_inner(PointPair points);
   void offer_across(PointPair points);
   bool may_be_pair(const Pair& pair) const;
+  /// Whether a loop along its fibre decides about the pair, which is of no joined fibres.
   bool needs_loop(const Pair& pair) const {
-    return options_.needs_loops() && pair.a.fiber == pair.b.fiber;
+    return options_.needs_loops() && pair.a.fiber == pair.b.fiber &&
+           !pairs_.joined.points_of(pair.a, pair.b);
   }
   void consider(const Pair& pair);
   void keep(const Pair& pair, const Contact& contact);
-  bool is_left_out(const Pair& pair, const Contact& contact) const;
+  bool is_left_out(const Pair& pair, const Contact& contact);
   std::optional<PointPair> on_one_stretch(const Pair& pair);
   bool is_ruled_out(PointPair along) const;
   bool makes_loop(PointPair along, const PairDistance& distance);
@@ -83,10 +85,12 @@ class FiberPairSearch {
     return pair.is_across ? *across_test_ : inner_test_;
   }
   bool is_closer(const PairKey& key);
+  void take_loop_steps(std::uint64_t loop_steps);
   bool takes_pair();
   bool is_over();
   void leave_out(double lower) { others_lower_ = std::min(others_lower_, lower); }
 
+  const RankPairs pairs_;
   const Communicator& ranks_;
   const LocalFibers& own_;
   const RunTreeEngine& engine_;

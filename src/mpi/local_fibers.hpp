@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
@@ -33,6 +34,9 @@ class LocalFibers {
   /// Ends what assign() or open() begins: fibers() are there.
   /// @throws std::invalid_argument for nodes that an assembly may not have; there are none then
   void close();
+
+  /// Joins fibers() until they are opened or assigned anew.
+  void join(const std::shared_ptr<const FiberGraph>& graph) { fibers_.join(graph); }
 
   /// [m] No point has moved further since the nodes before these; infinity where they are new, or
   /// have other radii.

@@ -32,7 +32,8 @@ void MotionSearch::update(const OwnedFibers& fibers) {
 void MotionSearch::append(const MotionOptions& options, const LocalFibers& fibers_b,
                           MotionResult& found, DistributedMotionResult& result) const {
   const LocalFibers& own = fibers_->own();
-  const RankPairs pairs{ranks_, own, halo_};
+  const JoinedPairs joined(fibers_->joined(), options);
+  const RankPairs pairs{ranks_, own, halo_, joined};
   const auto append_some = [&](std::vector<MotionContact>& some,
                                std::vector<DistributedMotionContact>& contacts) {
     pairs.keep_those_of_whole_fibers(options, fibers_b, some);

@@ -5,7 +5,7 @@
 #include <limits>
 #include <string>
 
-#include "src/mpi/error_of_joints.hpp"
+#include "src/mpi/part_topology.hpp"
 
 namespace fiber {
 
@@ -17,20 +17,25 @@ void OwnedFibers::take_runs(const Communicator& ranks) {
 
 void OwnedFibers::take(const Communicator& ranks, const FiberAssembly& parts,
                        const FiberAssembly* after, const std::vector<FiberPart>& names,
-                       const RankLoad& load) {
-  const bool is_same = ranks.all(has_fibers_ && routes_.is_of(parts, names));
+                       const FiberTopology& given, const RankLoad& load) {
+  FiberTopology topology;
+  const std::string error = error_in([&] { topology = part_topology(parts, given); });
+  const bool is_same = ranks.all(error.empty() && has_fibers_ && routes_.is_of(parts, names) &&
+                                 joined_.is_of(topology));
   has_fibers_ = false;
   ranks.throw_on_all(names.size() == parts.fiber_count()
-                         ? error_of_joints(parts)
+                         ? error
                          : std::to_string(names.size()) + " names for " +
                                std::to_string(parts.fiber_count()) +
                                " parts, there must be one per part");
   ranks.throw_on_all(
-      after == nullptr || after->offsets() == parts.offsets()
-          ? error_of_joints(after == nullptr ? parts : *after)
+      after == nullptr || after->has_topology_of(parts) ? ""
+      : after->offsets() == parts.offsets()
+          ? "the parts after the motion are not joined as before it"
           : "the parts after the motion are not of the same numbers of points as before it");
   if (!is_same) {
     routes_.set_parts(ranks, parts, names);
+    joined_.set_parts(ranks, parts, names, topology);
   }
   const ArcLengths arcs = routes_.arc_lengths(ranks, parts);
   arc_roundings_ = arcs.roundings;
@@ -43,6 +48,7 @@ void OwnedFibers::take(const Communicator& ranks, const FiberAssembly& parts,
     routes_.split(ranks, parts, costs);
     balance_.note_split(is_uneven);
     take_runs(ranks);
+    joined_.set_owners(ranks, parts, names, routes_);
   } else {
     own_.open();
   }
@@ -53,9 +59,11 @@ void OwnedFibers::take(const Communicator& ranks, const FiberAssembly& parts,
     }
     own_after_.open();
     routes_.send_nodes(ranks, *after, arcs.of_pieces, own_after_);
+    joined_.send_nodes(ranks, *after);  // only to see that what is joined meets there, too
   } else if (do_move_) {
     own_after_ = LocalFibers();
   }
+  joined_.send_nodes(ranks, parts);
   const double moved = ranks.max(own_.moved());
   if (do_move_ || after != nullptr || std::isinf(moved)) {
     begin_epoch();
@@ -73,15 +81,19 @@ void OwnedFibers::take(const Communicator& ranks, const FiberAssembly& parts,
 
 DistributedFibers OwnedFibers::adopt(const Communicator& ranks) {
   DistributedFibers own{own_.fibers(), {}};
+  own.topology = joined_.topology_of(own_);
   own.names.reserve(own_.first_ids().size());
   for (const GlobalSegment& first : own_.first_ids()) {
     own.names.push_back({first.fiber, first.segment});
   }
   routes_.set_parts(ranks, own.parts, own.names);
+  joined_.set_parts(ranks, own.parts, own.names, own.topology);
   const ArcLengths arcs = routes_.arc_lengths(ranks, own.parts);
   routes_.keep_all(ranks);
   take_runs(ranks);
   routes_.send_nodes(ranks, own.parts, arcs.of_pieces, own_);
+  joined_.set_owners(ranks, own.parts, own.names, routes_);
+  joined_.send_nodes(ranks, own.parts);
   begin_epoch();
   return own;
 }

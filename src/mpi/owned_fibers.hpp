@@ -6,6 +6,7 @@
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "fiber_proximity/mpi/distributed_engine.hpp"
 #include "src/mpi/communicator.hpp"
+#include "src/mpi/joined_fibers.hpp"
 #include "src/mpi/load_balance.hpp"
 #include "src/mpi/local_fibers.hpp"
 #include "src/mpi/piece_boxes.hpp"
@@ -31,17 +32,20 @@ class OwnedFibers {
  public:
   /// Takes the parts that the ranks bring. Of the same parts as before only the points go to their
   /// owners, unless the ranks' costs differ too much: then they are split anew. Collective.
-  /// @param load of this rank since the last update
+  /// @param topology what is given of it beside the parts
+  /// @param load     of this rank since the last update
   /// @throws std::invalid_argument on every rank as DistributedEngine::update()
   void update(const Communicator& ranks, const FiberAssembly& parts,
-              const std::vector<FiberPart>& names, const RankLoad& load = {}) {
-    take(ranks, parts, nullptr, names, load);
+              const std::vector<FiberPart>& names, const FiberTopology& topology,
+              const RankLoad& load) {
+    take(ranks, parts, nullptr, names, topology, load);
   }
 
   /// Takes parts that move: they have the same numbers of points before and after.
   void update_motion(const Communicator& ranks, const FiberAssembly& before,
-                     const FiberAssembly& after, const std::vector<FiberPart>& names) {
-    take(ranks, before, &after, names, {});
+                     const FiberAssembly& after, const std::vector<FiberPart>& names,
+                     const FiberTopology& topology) {
+    take(ranks, before, &after, names, topology, {});
   }
 
   /// Makes what each rank owns the parts that it brings. There must be fibres, and no motion.
@@ -58,6 +62,9 @@ class OwnedFibers {
   /// The fibres that this rank owns, before the motion if there is one.
   const LocalFibers& own() const { return own_; }
   const LocalFibers& own_after() const { return own_after_; }
+
+  /// Those that are closed or joined, whole; before the motion if there is one.
+  const JoinedFibers& joined() const { return joined_; }
 
   FiberStates states() const { return {own_, do_move_ ? &own_after_ : nullptr}; }
 
@@ -77,7 +84,7 @@ class OwnedFibers {
 
  private:
   void take(const Communicator& ranks, const FiberAssembly& parts, const FiberAssembly* after,
-            const std::vector<FiberPart>& names, const RankLoad& load);
+            const std::vector<FiberPart>& names, const FiberTopology& given, const RankLoad& load);
   void take_runs(const Communicator& ranks);
   void begin_epoch() { displacement_ = {displacement_.layout, displacement_.epoch + 1}; }
 
@@ -85,6 +92,7 @@ class OwnedFibers {
   LoadBalance balance_;
   LocalFibers own_;
   LocalFibers own_after_;
+  JoinedFibers joined_;
   Displacement displacement_;
   PieceBoxes boxes_;
   Displacement boxes_fitted_;  // the displacement when boxes were fitted

@@ -14,7 +14,7 @@
 namespace fiber {
 
 /// The parts that a rank brings, cut into pieces of a few segments, and the owner of each piece.
-/// All functions but is_of() and sent_points() are collective.
+/// All functions but is_of(), for_each_owner() and sent_points() are collective.
 class PieceRoutes {
  public:
   /// Whether these are the same parts as before; their points may have moved.
@@ -38,6 +38,14 @@ class PieceRoutes {
 
   /// Makes this rank the owner of all pieces that it brings.
   void keep_all(const Communicator& ranks);
+
+  /// Calls with the part and the owner of each piece that this rank brings.
+  template <class Call>
+  void for_each_owner(const Call& call) const {
+    for (std::size_t i = 0; i < pieces_.size(); ++i) {
+      call(pieces_[i].part, owners_[i]);
+    }
+  }
 
   /// Tells the owners which pieces they get. Their nodes follow with send_nodes().
   /// @return the pieces that this rank owns, in the order in which ranks send them

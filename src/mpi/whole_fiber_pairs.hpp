@@ -8,6 +8,7 @@
 #include "fiber_proximity/query/contact.hpp"
 #include "fiber_proximity/query/options.hpp"
 #include "src/mpi/communicator.hpp"
+#include "src/mpi/joined_pairs.hpp"
 #include "src/mpi/local_fibers.hpp"
 #include "src/mpi/loop_questions.hpp"
 
@@ -43,8 +44,9 @@ struct RankPairs {
   const Communicator& ranks;
   const LocalFibers& own;
   const LocalFibers& halo;
+  const JoinedPairs& joined;
 
-  /// Whether segments are no pair along whole fibres, loops apart.
+  /// Whether segments are no pair along whole fibres, loops and joints apart.
   bool are_left_out(const PairOptions& options, const SegmentIdPair& pair,
                     const LocalFibers& fibers_b) const {
     const GlobalSegment a = own.global_id(pair.fiber_a, pair.segment_a);
@@ -88,6 +90,12 @@ void RankPairs::keep_those_of_whole_fibers(const PairOptions& options, const Loc
     }
     const GlobalSegment a = own.global_id(pair.fiber_a, pair.segment_a);
     const GlobalSegment b = fibers_b.global_id(pair.fiber_b, pair.segment_b);
+    if (const std::optional<PointPair> points = joined.points_of(a, b)) {
+      if (!joined.are_left_out(*points)) {
+        keep(i);
+      }
+      continue;
+    }
     // The engine has seen the loop if both segments are on one stretch of the fibre.
     const bool is_loop_known = &fibers_b == &own && pair.fiber_a == pair.fiber_b;
     if (options.needs_loops() && a.fiber == b.fiber && !is_loop_known) {

@@ -94,29 +94,6 @@ TEST(DistributedErrors, TheErrorOfOneRankIsThatOfAll) {
   }
 }
 
-TEST(DistributedErrors, RanksTakeNoJoints) {
-  DistributedEngine engine(MPI_COMM_WORLD, one_thread());
-  const int last = rank_count() - 1;
-  const auto update_with = [&](const FiberTopology& topology) {
-    return [&engine, topology, last] {
-      const FiberAssembly parts({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {1, 0, 0}, {2, 0, 0}}, {0, 3, 5},
-                                {0.1}, topology);
-      const std::vector<FiberPart> names{{0, 0}, {1, 0}};
-      const bool brings = own_rank() == last;
-      engine.update(brings ? parts : FiberAssembly(), brings ? names : std::vector<FiberPart>());
-    };
-  };
-  const std::string rank = "rank " + std::to_string(last) + ": ";
-  expect_error(update_with({{1, 0}, {}, {}}),
-               rank +
-                   "part 0, point 0: the fibre is closed; the ranks of MPI take open fibres that "
-                   "are not joined");
-  expect_error(update_with({{}, {-1, 4, -1, 4, -1}, {}}),
-               rank + "part 0, point 1: the point is joined; the ranks of MPI take open fibres");
-  update_with({})();
-  answer(engine, within(0.1));
-}
-
 TEST(DistributedErrors, AnEngineBeforeItsFirstUpdateHasNoFibres) {
   DistributedEngine engine(MPI_COMM_WORLD, one_thread());
   EXPECT_THROW(answer(engine, within(0.1)), std::logic_error);

@@ -9,6 +9,7 @@
 
 #include "fiber_proximity/mpi/distributed_engine.hpp"
 #include "src/mpi/communicator.hpp"
+#include "test/mpi/gathered_motions.hpp"
 #include "test/mpi/scattered_fibers.hpp"
 #include "test/support/neighbour_skips.hpp"
 #include "test/support/rounds.hpp"
@@ -31,35 +32,6 @@ MotionOptions draw_options(double extent, Random& random) {
     options.time_tolerance = random.uniform(1e-6, 1e-2);
   }
   return options;
-}
-
-/// The contacts of all ranks, sorted, on every rank.
-std::vector<DistributedMotionContact> gathered(const std::vector<DistributedMotionContact>& mine) {
-  const Communicator ranks(MPI_COMM_WORLD);
-  std::vector<DistributedMotionContact> all = joined(ranks.exchange(
-      PerRank<DistributedMotionContact>(static_cast<std::size_t>(ranks.size()), mine)));
-  std::sort(all.begin(), all.end(), by_key);
-  return all;
-}
-
-testing::AssertionResult are_same(const std::vector<DistributedMotionContact>& mine,
-                                  const std::vector<MotionContact>& expected) {
-  const std::vector<DistributedMotionContact> found = gathered(mine);
-  if (found.size() != expected.size()) {
-    return testing::AssertionFailure() << found.size() << " contacts, expected " << expected.size();
-  }
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    const DistributedMotionContact& x = found[i];
-    const MotionContact& y = expected[i];
-    if (x.fiber_a != name_of_fiber(y.fiber_a) || x.segment_a != y.segment_a ||
-        x.fiber_b != name_of_fiber(y.fiber_b) || x.segment_b != y.segment_b ||
-        !same_bits(x.lower, y.lower) || !same_bits(x.upper, y.upper) || x.certain != y.certain) {
-      return testing::AssertionFailure()
-             << "contact " << i << " is (" << x.fiber_a << ", " << x.segment_a << ", " << x.fiber_b
-             << ", " << x.segment_b << ") from " << x.lower << " to " << x.upper;
-    }
-  }
-  return testing::AssertionSuccess();
 }
 
 /// Updates the ranks' engine.
@@ -95,8 +67,9 @@ void expect_what_one_process_finds(const AssemblyFamily& family, std::uint64_t s
             family.name + ", scene " + std::to_string(scene) + ", frame " + std::to_string(frame) +
             ", type " + std::to_string(static_cast<int>(options.type)) + ", margin " +
             std::to_string(options.margin) + " m, at most " + std::to_string(options.contact_limit);
-        ASSERT_TRUE(are_same(found.contacts, expected.contacts)) << trace;
-        ASSERT_TRUE(are_same(found.touching, expected.touching)) << trace << ", touching";
+        ASSERT_TRUE(same_as_one_process(found.contacts, expected.contacts)) << trace;
+        ASSERT_TRUE(same_as_one_process(found.touching, expected.touching))
+            << trace << ", touching";
         ASSERT_EQ(found.complete, expected.complete) << trace;
         ASSERT_EQ(found.limit_reached, expected.limit_reached) << trace;
         ASSERT_EQ(found.others_lower, expected.others_lower) << trace;

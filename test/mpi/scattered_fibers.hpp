@@ -13,6 +13,7 @@
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "fiber_proximity/mpi/distributed_engine.hpp"
+#include "src/geometry/fiber_graph.hpp"
 #include "test/support/answers.hpp"
 #include "test/support/contacts.hpp"
 #include "test/support/dense_fibers.hpp"
@@ -99,6 +100,10 @@ inline DistributedFibers scattered_to(int rank, const FiberAssembly& fibers,
   std::vector<double> radii;
   std::vector<std::uint32_t> offsets{0};
   DistributedFibers mine;
+  FiberTopology topology = fibers.topology();
+  if (!topology.joints.empty()) {
+    fibers.graph()->repeat_first_points(topology.joints);
+  }
   const auto radius_of = [&](std::uint32_t fiber, std::uint32_t point) {
     const std::vector<double>& all = fibers.radii();
     return all.size() == 1 ? all[0] : all.size() == fibers.fiber_count() ? all[fiber] : all[point];
@@ -109,6 +114,12 @@ inline DistributedFibers scattered_to(int rank, const FiberAssembly& fibers,
       for (std::uint32_t p = start + part.begin; p <= start + part.end; ++p) {
         points.push_back(fibers.points()[p]);
         radii.push_back(radius_of(part.fiber, p));
+        if (!topology.joints.empty()) {
+          mine.topology.joints.push_back(topology.joints[p]);
+        }
+      }
+      if (!topology.closed.empty()) {
+        mine.topology.closed.push_back(topology.closed[part.fiber]);
       }
       offsets.push_back(static_cast<std::uint32_t>(points.size()));
       mine.names.push_back({name_of_fiber(part.fiber), part.begin});
@@ -116,6 +127,7 @@ inline DistributedFibers scattered_to(int rank, const FiberAssembly& fibers,
   }
   if (!points.empty()) {
     mine.parts = FiberAssembly(std::move(points), std::move(offsets), std::move(radii));
+    mine.topology.joint_tolerance = topology.joint_tolerance;
   }
   return mine;
 }

@@ -10,6 +10,7 @@ if(TARGET fiber_proximity_mpi)
     mpi/distributed_fiber_pairs_test.cpp
     mpi/distributed_files_test.cpp
     mpi/distributed_halo_test.cpp
+    mpi/distributed_joints_test.cpp
     mpi/distributed_motion_test.cpp
     mpi/loop_questions_test.cpp
     mpi/partition_test.cpp

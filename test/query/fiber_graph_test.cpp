@@ -14,88 +14,10 @@
 #include "test/support/joined_fibers.hpp"
 #include "test/support/neighbour_skips.hpp"
 #include "test/support/not_finite.hpp"
+#include "test/support/true_contacts.hpp"
 
 namespace fiber::test {
 namespace {
-
-using SegmentPair = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t>;
-
-SegmentPair pair_in(const SegmentIdPair& pair) {
-  return {pair.fiber_a, pair.segment_a, pair.fiber_b, pair.segment_b};
-}
-
-/// The contacts that there are, and those that rounding may decide about.
-struct TrueContacts {
-  std::set<SegmentPair> certain;
-  std::set<SegmentPair> possible;  // and those that are certain
-};
-
-TrueContacts true_contacts(const JoinedFibers& fibers, const QueryOptions& options) {
-  const GraphOracle oracle(fibers);
-  TrueContacts contacts;
-  const std::vector<GraphOracle::Segment>& segments = oracle.segments();
-  for (std::size_t i = 0; i < segments.size(); ++i) {
-    for (std::size_t j = i + 1; j < segments.size(); ++j) {
-      const GraphOracle::Segment& a = segments[i];
-      const GraphOracle::Segment& b = segments[j];
-      if (oracle.nearest(a, b).distance - (a.radius + b.radius) <= options.margin &&
-          !oracle.is_left_out(a, b, options, 1.0 - 1e-9)) {
-        const SegmentPair pair{a.fiber, a.index, b.fiber, b.index};
-        contacts.possible.insert(pair);
-        if (!oracle.is_left_out(a, b, options, 1.0 + 1e-9)) {
-          contacts.certain.insert(pair);
-        }
-      }
-    }
-  }
-  return contacts;
-}
-
-testing::AssertionResult are_those(const std::vector<Contact>& found, const TrueContacts& truth) {
-  std::set<SegmentPair> pairs;
-  for (const Contact& contact : found) {
-    pairs.insert(pair_in(contact));
-  }
-  const auto failure = [](const char* what, const SegmentPair& pair) {
-    const auto& [fiber_a, segment_a, fiber_b, segment_b] = pair;
-    return testing::AssertionFailure() << what << " fibre " << fiber_a << ", segment " << segment_a
-                                       << " and fibre " << fiber_b << ", segment " << segment_b;
-  };
-  for (const SegmentPair& pair : truth.certain) {
-    if (pairs.count(pair) == 0) {
-      return failure("missing:", pair);
-    }
-  }
-  for (const SegmentPair& pair : pairs) {
-    if (truth.possible.count(pair) == 0) {
-      return failure("no contact:", pair);
-    }
-  }
-  return testing::AssertionSuccess();
-}
-
-/// Other places of the same fibres: what is joined moves together.
-JoinedFibers bent(JoinedFibers fibers, Random& random) {
-  const Eigen::Vector3d way = random.in_cube();
-  const double waves = random.uniform(0.2, 2.0);
-  for (Eigen::Vector3d& point : fibers.points) {
-    point += 0.3 * std::sin(waves * point.dot(way)) * way;
-  }
-  return fibers;
-}
-
-/// Places far from there: each point goes its own way, those of a joint the same.
-JoinedFibers shaken(JoinedFibers fibers, Random& random) {
-  std::map<std::int32_t, Eigen::Vector3d> ways;
-  for (std::size_t i = 0; i < fibers.points.size(); ++i) {
-    Eigen::Vector3d way = random.in_cube(0.5);
-    if (const std::int32_t joint = fibers.topology.joints[i]; joint >= 0) {
-      way = ways.emplace(joint, way).first->second;
-    }
-    fibers.points[i] += way;
-  }
-  return fibers;
-}
 
 std::vector<Contact> sorted_by(bool (*before)(const Contact&, const Contact&),
                                std::vector<Contact> contacts) {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -175,6 +176,29 @@ inline JoinedFibers random_joined_fibers(Random& random) {
   JoinedFibers fibers = random_family(random);
   for (int i = random.integer(0, 2); i > 0; --i) {
     add_stranger(fibers, random);
+  }
+  return fibers;
+}
+
+/// Other places of the same fibres: what is joined moves together.
+inline JoinedFibers bent(JoinedFibers fibers, Random& random) {
+  const Eigen::Vector3d way = random.in_cube();
+  const double waves = random.uniform(0.2, 2.0);
+  for (Eigen::Vector3d& point : fibers.points) {
+    point += 0.3 * std::sin(waves * point.dot(way)) * way;
+  }
+  return fibers;
+}
+
+/// Places far from there: each point goes its own way, those of a joint the same.
+inline JoinedFibers shaken(JoinedFibers fibers, Random& random) {
+  std::map<std::int32_t, Eigen::Vector3d> ways;
+  for (std::size_t i = 0; i < fibers.points.size(); ++i) {
+    Eigen::Vector3d way = random.in_cube(0.5);
+    if (const std::int32_t joint = fibers.topology.joints[i]; joint >= 0) {
+      way = ways.emplace(joint, way).first->second;
+    }
+    fibers.points[i] += way;
   }
   return fibers;
 }

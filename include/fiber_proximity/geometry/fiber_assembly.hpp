@@ -111,6 +111,10 @@ class FiberAssembly {
   /// update_points() without a copy: takes these points and leaves those it had.
   void exchange_points(std::vector<Eigen::Vector3d>& points);
 
+  /// Joins fibres that are open so far. For engines, which see to it that what is joined meets.
+  /// @param graph of these offsets, with no closed fibre
+  void join(std::shared_ptr<const FiberGraph> graph);
+
   /// Moves all points by a pose, in place.
   /// @throws std::invalid_argument for a point that gets a bad coordinate; the assembly is
   /// unchanged

@@ -35,6 +35,12 @@ struct DistributedFibers {
 
   /// Names of the fibres by number, the same on all ranks: for files and answers.
   FiberNames fiber_names{};
+
+  /// What is joined, of fibres that are cut into parts as well. `closed` is by part, whether its
+  /// fibre is closed: the fibre's last point is then its first one, repeated, and has its joint.
+  /// `joints` is by point of the parts, and points of one number are one place on whatever ranks
+  /// they are. Empty for chains, and where the parts are closed or joined themselves.
+  FiberTopology topology{};
 };
 
 /// A contact whose fibres and segments have the numbers that hold for all ranks.
@@ -84,6 +90,9 @@ struct DistributedFacts {
 
   /// Work of this rank for queries since the last update.
   QueryCounts query_counts;
+
+  /// Of closed and joined fibres that this rank knows whole, its own segments among them.
+  std::uint64_t joined_segments = 0;
 };
 
 /// Contacts of fibres that are spread over the ranks of MPI, the same, bit for bit, as one process
@@ -118,13 +127,21 @@ class DistributedEngine {
   /// Parts of the same names and numbers of points, on all ranks, as at the last update are taken
   /// for the same fibres, moved: they stay with the ranks that have them, until what these have
   /// had to do since the last update differs too much.
-  /// @param parts of this rank, each as a fibre, in any order, or none; a radius per fibre or point
-  ///              as FiberAssembly has it [m]
-  /// @param names one per part
+  ///
+  /// Fibres may be closed and joined: by the parts themselves where a closed fibre is one part, the
+  /// numbers of joints being those of all ranks, or else by the topology. A rank that owns a
+  /// segment of such a fibre gets it whole with each update, and all fibres that are joined with
+  /// it.
+  /// @param parts    of this rank, each as a fibre, in any order, or none; a radius per fibre or
+  ///                 point as FiberAssembly has it [m]
+  /// @param names    one per part
+  /// @param topology of these parts, see DistributedFibers
   /// @throws std::invalid_argument if there are not as many names as parts, where segments are
-  ///         brought twice or are missing, and where two parts of a fibre do not meet; then the
-  ///         engine has no fibres
-  void update(const FiberAssembly& parts, const std::vector<FiberPart>& names);
+  ///         brought twice or are missing, where two parts of a fibre do not meet or are not joined
+  ///         alike, and as FiberAssembly for fibres that are closed or joined; then the engine has
+  ///         no fibres
+  void update(const FiberAssembly& parts, const std::vector<FiberPart>& names,
+              const FiberTopology& topology = {});
 
   /// Makes what each rank holds the parts that it brings. A simulation that goes on with these
   /// sends no points but those of halos, until fibres are split anew: then those that change hands.
@@ -154,7 +171,7 @@ class DistributedEngine {
   /// that query_motion() is about. There are no fibres for query() then. Otherwise as update().
   /// @throws std::invalid_argument as update(), and as ProximityEngine::update_motion()
   void update_motion(const FiberAssembly& before, const FiberAssembly& after,
-                     const std::vector<FiberPart>& names);
+                     const std::vector<FiberPart>& names, const FiberTopology& topology = {});
 
   /// Pairs of segments of all fibres that come into contact during the motion, and when; each
   /// reported by the rank that holds the smaller of the two.

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+#include "fiber_proximity/geometry/fiber_assembly.hpp"
+#include "fiber_proximity/geometry/fiber_topology.hpp"
+
+namespace fiber {
+
+/// Whether anything is closed, or has the number of a joint.
+inline bool joins_anything(const FiberTopology& topology) {
+  const auto is_set = [](std::uint8_t closed) { return closed != 0; };
+  const auto is_number = [](std::int32_t joint) { return joint >= 0; };
+  return std::any_of(topology.closed.begin(), topology.closed.end(), is_set) ||
+         std::any_of(topology.joints.begin(), topology.joints.end(), is_number);
+}
+
+/// What is joined among parts of fibres, as DistributedFibers::topology has it: what is given
+/// beside the parts, or what the parts themselves have. Without vectors if nothing is joined.
+/// @throws std::invalid_argument if both are given, and for vectors of other lengths
+FiberTopology part_topology(const FiberAssembly& parts, const FiberTopology& given);
+
+}  // namespace fiber
