@@ -8,7 +8,7 @@
 #include "src/sim/effects/natural_bend.hpp"
 #include "src/sim/joint/joint_parts.hpp"
 #include "test/sim/random_rods.hpp"
-#include "validation/sim/rod_scene.hpp"
+#include "validation/sim/contact_scenes.hpp"
 
 namespace fiber::test {
 namespace {
@@ -316,14 +316,6 @@ TEST(Joints, WeldedCornerBendsAndTwists) {
       load * (arm * arm * arm / 3.0 / bending + reach * reach * reach / 3.0 / bending +
               arm * reach * reach / twisting);
   EXPECT_NEAR(-stepper.rods().positions[2 * segments + 1].z(), sinks, 5e-3 * sinks);
-}
-
-Vector3d momentum_of(const Rods& rods) {
-  Vector3d sum = Vector3d::Zero();
-  for (std::size_t i = 0; i < rods.positions.size(); ++i) {
-    sum += rods.masses[i] * rods.velocities[i];
-  }
-  return sum;
 }
 
 Vector3d angular_momentum_of(const Rods& rods) {

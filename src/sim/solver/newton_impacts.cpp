@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <tuple>
 
 #include "src/sim/solver/newton.hpp"
 
@@ -17,6 +18,7 @@ namespace {
 struct StruckNode {
   std::uint32_t rod;
   std::uint32_t node;
+  bool is_joined_only = false;  ///< with one that is of an impact
   Vector3d velocity = Vector3d::Zero();
   double spin = 0.0;
 };
@@ -37,12 +39,13 @@ std::vector<StruckNode> struck_nodes(const Rods& rods, const std::vector<Impact>
     const std::int32_t place = rods.joints[nodes[i].node];
     if (place >= 0) {
       for (const PlacedNode& each : joints->places[static_cast<std::size_t>(place)]) {
-        nodes.push_back({each.rod, each.node});
+        nodes.push_back({each.rod, each.node, true});
       }
     }
   }
-  std::sort(nodes.begin(), nodes.end(),
-            [](const StruckNode& a, const StruckNode& b) { return a.node < b.node; });
+  std::sort(nodes.begin(), nodes.end(), [](const StruckNode& a, const StruckNode& b) {
+    return std::tie(a.node, a.is_joined_only) < std::tie(b.node, b.is_joined_only);
+  });
   const auto is_same = [](const StruckNode& a, const StruckNode& b) { return a.node == b.node; };
   nodes.erase(std::unique(nodes.begin(), nodes.end(), is_same), nodes.end());
   for (StruckNode& each : nodes) {
@@ -52,47 +55,56 @@ std::vector<StruckNode> struck_nodes(const Rods& rods, const std::vector<Impact>
   return nodes;
 }
 
-/// Makes joined nodes as heavy as their places while impulses act on them, and lets all nodes of a
-/// place have the impulses of each.
+/// The places of joints in impacts. A node there is as heavy as its place while impulses act on it,
+/// or as its share of that if several of the place's nodes are struck; then all of them have what
+/// these have been given.
 class StruckPlaces {
  public:
-  /// @param struck nodes with all that are joined with them
-  StruckPlaces(Rods& rods, const std::vector<StruckNode>& struck) : rods_(rods), struck_(struck) {
-    for (const StruckNode& each : struck) {
+  /// @param nodes with all that are joined with them
+  StruckPlaces(Rods& rods, const std::vector<StruckNode>& nodes) : rods_(rods), nodes_(nodes) {
+    for (const StruckNode& each : nodes) {
       masses_.push_back(rods.masses[each.node]);
       if (rods.joints[each.node] >= 0) {
-        place_masses_[rods.joints[each.node]] += rods.masses[each.node];
+        Place& place = places_[rods.joints[each.node]];
+        place.mass += rods.masses[each.node];
+        place.struck += each.is_joined_only ? 0.0 : 1.0;
       }
     }
-    for (const StruckNode& each : struck) {
+    for (const StruckNode& each : nodes) {
       if (rods.joints[each.node] >= 0) {
-        rods.masses[each.node] = place_masses_[rods.joints[each.node]];
+        const Place& place = places_[rods.joints[each.node]];
+        rods.masses[each.node] = place.mass / place.struck;
       }
     }
   }
 
   void finish() {
-    std::map<std::int32_t, Vector3d> changes;
-    for (std::size_t i = 0; i < struck_.size(); ++i) {
-      const StruckNode& each = struck_[i];
+    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+      const StruckNode& each = nodes_[i];
       rods_.masses[each.node] = masses_[i];
       if (rods_.joints[each.node] >= 0) {
-        changes.try_emplace(rods_.joints[each.node], Vector3d::Zero()).first->second +=
-            rods_.velocities[each.node] - each.velocity;
+        Place& place = places_[rods_.joints[each.node]];
+        place.change += (rods_.velocities[each.node] - each.velocity) / place.struck;
       }
     }
-    for (const StruckNode& each : struck_) {
+    for (const StruckNode& each : nodes_) {
       if (rods_.joints[each.node] >= 0) {
-        rods_.velocities[each.node] = each.velocity + changes.at(rods_.joints[each.node]);
+        rods_.velocities[each.node] = each.velocity + places_[rods_.joints[each.node]].change;
       }
     }
   }
 
  private:
+  struct Place {
+    double mass = 0.0;    // [kg]
+    double struck = 0.0;  // how many of its nodes
+    Vector3d change = Vector3d::Zero();
+  };
+
   Rods& rods_;
-  const std::vector<StruckNode>& struck_;
-  std::vector<double> masses_;  // by struck node [kg]
-  std::map<std::int32_t, double> place_masses_;
+  const std::vector<StruckNode>& nodes_;
+  std::vector<double> masses_;  // by node of these [kg]
+  std::map<std::int32_t, Place> places_;
 };
 
 /// The largest part, up to 1, of a change of velocities and spins that adds no more kinetic energy
