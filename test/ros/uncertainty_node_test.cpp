@@ -156,7 +156,8 @@ TEST_F(UncertaintyNodeTest, WhatCameAndWentWasPossibleOrCertain) {
   constexpr double rounding = 1e-5;  // of whole nanoseconds
   EXPECT_NEAR(part(certain->time_lower), 0.45, rounding);
   EXPECT_NEAR(part(certain->time_upper), 0.47, rounding);
-  expect_bounds(*certain, 0.01, uncertainty, true);
+  EXPECT_NEAR(certain->distance, 0.01, 1e-5) << "at time_upper, by the tolerance";
+  EXPECT_NEAR(certain->upper, certain->distance + uncertainty, tiny);
   const double first = std::sqrt(0.05 * 0.05 - above * above);
   EXPECT_NEAR(part(possible->time_lower), 0.5 - first, rounding);
   EXPECT_NEAR(part(possible->time_upper), 0.5 + first, rounding) << "when it was possible last";
