@@ -93,11 +93,15 @@ void attach(SimScene& scene, std::uint32_t rod, std::int64_t node, const HoldReq
   const Attachment::Hold hold = make_hold(scene, held, request);
   const Rods& rods = scene.stepper->rods();
   Attachment without = *scene.attachment;  // so that one that is refused changes nothing
-  if (const auto id = without.find(held.rod, held.node)) {
-    without.remove(*id);
+  const auto replaced = without.find(held.rod, held.node);
+  if (replaced) {
+    without.remove(*replaced);
   }
   without.add(rods, hold);
   *scene.attachment = std::move(without);
+  if (replaced) {
+    scene.paths.erase(*replaced);
+  }
 }
 
 }  // namespace fiber::python

@@ -1,6 +1,7 @@
 #include "fiber_proximity/sim/stepper.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
@@ -100,6 +101,21 @@ Stepper::Stepper(Rods rods, Effects effects, const StepperOptions& options,
 }
 
 Stepper::~Stepper() = default;
+
+void Stepper::take_state(const Stepper& other) {
+  assert(effects_.size() == other.effects_.size());
+  rods_ = other.rods_;
+  time_ = other.time_;
+  report_ = other.report_;
+  history_ = other.history_;
+  for (std::size_t i = 0; i < effects_.size(); ++i) {
+    effects_[i]->take_state(*other.effects_[i]);
+  }
+  if (joints_ != nullptr) {
+    joints_->take_state(*other.joints_);
+  }
+  solver_->take_state(*other.solver_);
+}
 
 void Stepper::step(double length) {
   if (!(std::isfinite(length) && length > 0.0)) {

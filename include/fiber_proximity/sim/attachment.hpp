@@ -76,6 +76,15 @@ class Attachment : public Effect {
   /// is none.
   std::optional<HoldLag> longest_lag(const Rods& rods) const;
 
+  /// Has a hold go another way from the next step on; its node and what it does stay as they are.
+  /// @param placement by time [s]
+  /// @throws std::invalid_argument if there is no such hold
+  void redirect(std::uint32_t id, std::function<Placement(double time)> placement);
+
+  /// Where a hold has its node at a time [s].
+  /// @throws std::invalid_argument if there is no such hold
+  Placement placement(std::uint32_t id, double time) const;
+
   /// @throws std::invalid_argument if there is no such hold
   void remove(std::uint32_t id);
 
@@ -85,6 +94,7 @@ class Attachment : public Effect {
   void add_derivatives(const RodPack& rods, const NodeValues& values,
                        PackSystem& system) const override;
   void end_step(Rods& rods, const TimeStep& step) override;
+  void take_state(const Effect& other) override;
   void add_forces(const RodPack& rods, const NodeValues& values, RodForces& forces) const override;
 
  private:
@@ -101,6 +111,8 @@ class Attachment : public Effect {
     bool is_clamp() const { return hold.kind == Kind::CLAMP; }
     Eigen::Vector3d pull_at(const Eigen::Vector3d& position) const;
   };
+
+  std::vector<Held>::const_iterator by_id(std::uint32_t id) const;
 
   /// The first hold of a rod, or of the next rod that has one.
   std::vector<Held>::const_iterator first_of(std::uint32_t rod) const;

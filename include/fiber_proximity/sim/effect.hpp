@@ -262,6 +262,10 @@ class Effect {
   /// Called once after each step, by one thread.
   virtual void end_step(Rods& /*rods*/, const TimeStep& /*step*/) {}
 
+  /// Takes what another effect has come to in its steps, which was made alike for the same rods and
+  /// has the same options.
+  virtual void take_state(const Effect& /*other*/) {}
+
   /// Adds the effect's forces in the rods and on them where they are now.
   virtual void add_forces(const RodPack& /*rods*/, const NodeValues& /*values*/,
                           RodForces& /*forces*/) const {}

@@ -63,6 +63,9 @@ class Inextensible : public LaneEffect {
 
   bool has_multipliers() const override { return true; }
   bool update_multipliers(const Rods& rods, std::uint32_t rod) override;
+  void take_state(const Effect& other) override {
+    springs_ = static_cast<const Inextensible&>(other).springs_;
+  }
   void add_forces(const RodPack& rods, const NodeValues& values, RodForces& forces) const override;
 
  private:
@@ -140,6 +143,9 @@ class Twist : public LaneEffect {
   void add_forces(const RodPack& rods, const NodeValues& values, RodForces& forces) const override;
 
   void end_step(Rods& rods, const TimeStep& step) override;
+  void take_state(const Effect& other) override {
+    reference_twists_ = static_cast<const Twist&>(other).reference_twists_;
+  }
 
  private:
   Kernels kernels() const override;

@@ -82,6 +82,9 @@ class Joints {
   void begin_step(const Rods& rods, const TimeStep& step);
   void end_step(const Rods& rods);
 
+  /// Takes what other joints have come to in their steps, which were made alike for the same rods.
+  void take_state(const Joints& other);
+
   /// Stored energy of welds and closed rods where the rods are [J].
   double stored_energy(const Rods& rods) const;
 

@@ -94,6 +94,10 @@ class Stepper {
   ///         defined state then
   void step(double length);
 
+  /// Goes on from where another one is, with its rods. Effects, options, contacts and joints of
+  /// both must have been made alike, effects in the same order.
+  void take_state(const Stepper& other);
+
   const Rods& rods() const { return rods_; }
   Rods& rods() { return rods_; }
 

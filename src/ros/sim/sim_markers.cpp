@@ -118,7 +118,7 @@ void SimMarkers::apply(fiber::SimScene& scene) {
     if (grab.is_over) {
       const auto id = scene.attachment->find(end.rod, end.node);
       if (id && !grab.was_held) {
-        scene.attachment->remove(*id);
+        fiber::remove_hold(scene, *id);
       }
       grabbed = grabs_.erase(grabbed);
       continue;

@@ -245,13 +245,30 @@ std::vector<HeldNode> Attachment::held_at(std::uint32_t rod, double time) const 
   return nodes;
 }
 
-void Attachment::remove(std::uint32_t id) {
+std::vector<Attachment::Held>::const_iterator Attachment::by_id(std::uint32_t id) const {
   const auto place =
       std::find_if(held_.begin(), held_.end(), [id](const Held& held) { return held.id == id; });
   if (place == held_.end()) {
     throw std::invalid_argument("attachment: there is no hold " + std::to_string(id));
   }
-  held_.erase(place);
+  return place;
+}
+
+void Attachment::redirect(std::uint32_t id, std::function<Placement(double time)> placement) {
+  const auto index = by_id(id) - held_.cbegin();
+  held_[static_cast<std::size_t>(index)].hold.placement = std::move(placement);
+}
+
+Placement Attachment::placement(std::uint32_t id, double time) const {
+  return by_id(id)->hold.placement(time);
+}
+
+void Attachment::remove(std::uint32_t id) { held_.erase(by_id(id)); }
+
+void Attachment::take_state(const Effect& other) {
+  const auto& attachment = static_cast<const Attachment&>(other);
+  held_ = attachment.held_;
+  next_id_ = attachment.next_id_;
 }
 
 void Attachment::begin_step(Rods& rods, const TimeStep& step) {

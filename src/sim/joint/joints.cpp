@@ -276,6 +276,8 @@ void Joints::begin_step(const Rods& rods, const TimeStep& step) {
   }
 }
 
+void Joints::take_state(const Joints& other) { *parts_ = *other.parts_; }
+
 double Joints::stored_energy(const Rods& rods) const {
   double energy = 0.0;
   for (const Weld& weld : parts_->welds) {

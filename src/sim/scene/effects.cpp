@@ -181,9 +181,14 @@ std::shared_ptr<Attachment> make_attachment(const SimDescription& description, c
   for (const SimHold& hold : description.holds) {
     with_context(hold.place, [&] {
       const auto kind = hold.is_clamp ? Attachment::Kind::CLAMP : Attachment::Kind::PIN;
-      return attachment->add(
+      const std::uint32_t id = attachment->add(
           rods, {hold.rod, hold.node, kind, placement_of(hold, description, rods, scene.frames),
                  hold.max_force});
+      if (hold.frame) {
+        scene.frames.back().hold = id;
+        scene.paths.emplace(id, scene.frames.back().path);
+      }
+      return id;
     });
   }
   scene.attachment = attachment;

@@ -205,7 +205,7 @@ std::function<Placement(double)> placement_of(const SimHold& hold, const SimDesc
     path->emplace_back(waypoint.time, Placement{waypoint.position, waypoint.tangent, director});
   }
   if (hold.frame) {
-    frames.push_back({*hold.frame, hold.rod, hold.node,
+    frames.push_back({*hold.frame, 0, hold.rod, hold.node,
                       hold.place + ": node " + std::to_string(hold.node) + " of fibre " +
                           quote(scene.fiber_names[hold.rod]),
                       path->front().second, path});

@@ -139,26 +139,31 @@ NodeOfRod find_node(const SimScene& scene, std::uint32_t rod, std::int64_t index
   return {rod, static_cast<std::uint32_t>(node)};
 }
 
-void release_node(const SimScene& scene, std::uint32_t rod, std::int64_t index) {
+void remove_hold(SimScene& scene, std::uint32_t id) {
+  scene.attachment->remove(id);
+  scene.paths.erase(id);
+}
+
+void release_node(SimScene& scene, std::uint32_t rod, std::int64_t index) {
   const NodeOfRod held = find_node(scene, rod, index);
   const auto id = scene.attachment->find(held.rod, held.node);
   if (!id) {
     throw std::invalid_argument("nothing holds node " + std::to_string(index) + " of fibre " +
                                 quote(scene.fiber_names[rod]));
   }
-  scene.attachment->remove(*id);
+  remove_hold(scene, *id);
 }
 
 void hold_on_path(SimScene& scene, const NodeOfRod& node,
                   const std::shared_ptr<const PlacementPath>& path) {
   if (const auto id = scene.attachment->find(node.rod, node.node)) {
-    scene.attachment->remove(*id);
+    remove_hold(scene, *id);
   }
   Attachment::Hold hold;
   hold.rod = node.rod;
   hold.node = node.node;
   hold.placement = [path](double time) { return placement_at(*path, time); };
-  scene.attachment->add(scene.stepper->rods(), hold);
+  scene.paths.emplace(scene.attachment->add(scene.stepper->rods(), hold), path);
 }
 
 Lead lead(const SimScene& scene, const NodeOfRod& held, const Vector3d& from,

@@ -74,9 +74,13 @@ inline const Eigen::Vector3d& position_of(const Rods& rods, const NodeOfRod& nod
 void hold_on_path(SimScene& scene, const NodeOfRod& node,
                   const std::shared_ptr<const PlacementPath>& path);
 
+/// Removes a hold.
+/// @throws std::invalid_argument if there is no such hold
+void remove_hold(SimScene& scene, std::uint32_t id);
+
 /// Removes the hold of the node that find_node() finds.
 /// @throws std::invalid_argument as find_node(), and if nothing holds the node
-void release_node(const SimScene& scene, std::uint32_t rod, std::int64_t index);
+void release_node(SimScene& scene, std::uint32_t rod, std::int64_t index);
 
 /// How far a hold may move its node in the next frame.
 struct Lead {

@@ -288,15 +288,44 @@ double SimScene::residual_force() const {
   return worst.residual * rods.masses[rods.first(worst.rod) + worst.node] / step_length();
 }
 
-SimScene make_sim_scene(const SimDescription& description, std::uint32_t threads) {
+namespace {
+
+/// Makes a scene.
+/// @param resolve called with scene and rods, when all is made but the stepper
+template <class Resolve>
+SimScene make_scene(const SimDescription& description, std::uint32_t threads,
+                    const Resolve& resolve) {
   SimScene scene(description);
   scene.options.threads = threads;
   Rods rods = description.rods;
   MadeEffects effects = make_effects(description, rods, scene);
-  scene.overlap_note = resolve_overlaps(description, scene.attachment.get(), rods);
+  resolve(scene, rods);
   scene.stepper = std::make_unique<Stepper>(std::move(rods), std::move(effects.effects),
                                             scene.options, std::move(effects.contacts));
   return scene;
+}
+
+}  // namespace
+
+SimScene make_sim_scene(const SimDescription& description, std::uint32_t threads) {
+  return make_scene(description, threads, [&](SimScene& scene, Rods& rods) {
+    scene.overlap_note = resolve_overlaps(description, scene.attachment.get(), rods);
+  });
+}
+
+SimScene copy_sim_scene(const SimDescription& description, const SimScene& scene,
+                        std::uint32_t threads) {
+  SimScene copy = make_scene(description, threads, [](SimScene& /*scene*/, Rods& /*rods*/) {});
+  copy.overlap_note = scene.overlap_note;
+  copy.parameters.set(scene.parameters.all());
+  copy.stepper->take_state(*scene.stepper);
+  copy.paths.clear();
+  for (const auto& [hold, path] : scene.paths) {
+    const auto own = std::make_shared<const PlacementPath>(*path);
+    copy.attachment->redirect(hold, [own](double time) { return placement_at(*own, time); });
+    copy.paths.emplace(hold, own);
+  }
+  return copy;
 }
 
 }  // namespace fiber

@@ -58,6 +58,12 @@ class StageSolver {
   /// last.
   void keep_anchors(const Rods& rods);
 
+  /// Takes what another solver of the same rods has come to in its steps.
+  void take_state(const StageSolver& other) {
+    anchors_ = other.anchors_;
+    travel_bound_ = other.travel_bound_;
+  }
+
   /// The elastic energy of what sticks by friction [J].
   double anchor_energy() const { return anchors_.energy(); }
 

@@ -175,6 +175,7 @@ Placement placement_at(const PlacementPath& path, double time);
 /// A frame of tf that holds a fibre. The held node follows the frame's latest pose.
 struct FollowedFrame {
   std::string frame;
+  std::uint32_t hold;                   ///< as Attachment::add() calls it
   std::uint32_t rod;                    ///< that it holds
   std::uint32_t node;                   ///< of the rod, from its first one
   std::string what;                     ///< the held node and its place in the file, for warnings
@@ -189,6 +190,10 @@ struct SimScene : SimSettings {
   std::unique_ptr<Stepper> stepper;
   std::shared_ptr<Attachment> attachment;  ///< one of the stepper's effects; null without it
   std::vector<FollowedFrame> frames;       ///< whose placements are to be kept up to date
+
+  /// By hold, as Attachment::add() calls it: of holds whose paths may change.
+  std::map<std::uint32_t, std::shared_ptr<const PlacementPath>> paths;
+
   SimParameters parameters;                ///< of its effects
   std::string overlap_note;  ///< the overlaps that were separated at the beginning; empty without
 
@@ -211,5 +216,12 @@ struct SimScene : SimSettings {
 /// @throws std::invalid_argument naming file and line, for effects that refuse their options, and
 ///         for fibres that begin inside of something, unless they are separated
 SimScene make_sim_scene(const SimDescription& description, std::uint32_t threads);
+
+/// A scene that goes on from where another one is, bit for bit, and shares nothing with it that
+/// either changes. Its holds that follow frames of tf go on along what is known of these now.
+/// @param description of both
+/// @param threads     most to use, 0 for as many as there are cores
+SimScene copy_sim_scene(const SimDescription& description, const SimScene& scene,
+                        std::uint32_t threads);
 
 }  // namespace fiber
