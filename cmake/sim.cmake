@@ -52,6 +52,7 @@ add_library(sim_scene OBJECT
   src/sim/scene/loads.cpp
   src/sim/scene/named_nodes.cpp
   src/sim/scene/natural_curvature.cpp
+  src/sim/scene/prediction.cpp
   src/sim/scene/reach.cpp
   src/sim/scene/real_time.cpp
   src/sim/scene/report.cpp

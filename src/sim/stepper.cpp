@@ -144,6 +144,7 @@ void Stepper::step(double length) {
   require_finite(rods_);
   report_.energy_gain += kinetic_energy(rods_) + solver_->anchor_energy() - before;
   time_ += length;
+  has_step_ = true;
 }
 
 /// A step with an impact, and the one after it, are of implicit Euler: velocities jump in an
@@ -214,7 +215,7 @@ RodForces Stepper::forces() const {
   forces.tensions.assign(rods_.positions.size(), 0.0);
   forces.bending_moments.assign(rods_.positions.size(), Vector3d::Zero());
   forces.twisting_moments.assign(rods_.positions.size(), 0.0);
-  if (time_ > 0.0) {
+  if (has_step_) {
     solver_->add_forces(rods_, effects_, forces);
   }
   return forces;
@@ -222,7 +223,7 @@ RodForces Stepper::forces() const {
 
 double Stepper::energy() {
   return kinetic_energy(rods_) + solver_->anchor_energy() +
-         (time_ > 0.0 ? solver_->stored_energy(rods_, effects_) : 0.0);
+         (has_step_ ? solver_->stored_energy(rods_, effects_) : 0.0);
 }
 
 }  // namespace fiber

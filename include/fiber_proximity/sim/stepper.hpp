@@ -110,7 +110,8 @@ class Stepper {
   /// The result of the last step.
   const StepReport& report() const { return report_; }
 
-  /// The forces in and on the rods at the end of the last step; before the first one, none.
+  /// The forces in and on the rods at the end of the last step; before the first one, and the first
+  /// one after take_state(), none.
   RodForces forces() const;
 
   /// Kinetic and stored energy [J], also of contacts, where the rods are; before the first step
@@ -136,6 +137,7 @@ class Stepper {
   Effects effects_;
   StepperOptions options_;
   double time_ = 0.0;
+  bool has_step_ = false;  // of its own
   StepReport report_;
   History history_;
   std::unique_ptr<Contacts> contacts_;
