@@ -40,10 +40,13 @@ add_message_files(FILES
   FiberArray.msg
   ForceArray.msg
   HoldForce.msg
+  HoldTrajectory.msg
   InputStatistics.msg
   Obstacle.msg
   ObstacleArray.msg
   PredictedContact.msg
+  PredictedForce.msg
+  PredictedTouch.msg
   QueryShape.msg
   SettingMeasurement.msg
   SimulationParameter.msg
@@ -58,6 +61,7 @@ add_service_files(FILES
   CompareWithFcl.srv
   DetachFiber.srv
   MeasureSettings.srv
+  Predict.srv
   QueryProximity.srv
   SetSimulationParameters.srv
   StepSimulation.srv

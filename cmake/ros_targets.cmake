@@ -69,6 +69,7 @@ add_library(fiber_proximity_ros SHARED
   src/ros/server/settings.cpp
   src/ros/sim/sim_forces.cpp
   src/ros/sim/sim_frames.cpp
+  src/ros/sim/predict_service.cpp
   src/ros/sim/sim_markers.cpp
   src/ros/sim/sim_server.cpp
   src/ros/sim/sim_services.cpp

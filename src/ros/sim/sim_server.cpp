@@ -94,12 +94,16 @@ SimServer::SimServer(const ros::NodeHandle& private_node, const SimOptions& opti
                      const fiber::SimDescription& description)
     : node_(private_node),
       options_(options),
+      description_(std::make_shared<const fiber::SimDescription>(description)),
       scene_(fiber::make_sim_scene(description, options.threads)),
       world_(scene_.frame_id, private_node),
       frames_(world_, options.frame_timeout),
       is_paused_(options.paused),
       next_frame_(ros::SteadyTime::now()),
-      forces_(private_node) {
+      forces_(private_node),
+      predict_service_(
+          private_node, [this] { return copy_scene(); },
+          [this] { return is_ending_ || !ros::ok(); }) {
   frames_.wait_for(scene_.frames, options.frame_wait);
   log_scene(options_, description, scene_);
   fibers_ = node_.advertise<fiber_proximity::FiberArray>("fibers", 1, true);
@@ -119,6 +123,14 @@ SimServer::SimServer(const ros::NodeHandle& private_node, const SimOptions& opti
 }
 
 SimServer::~SimServer() { is_ending_ = true; }
+
+/// The scene as it is between two frames.
+SceneCopy SimServer::copy_scene() {
+  const std::lock_guard<FairMutex> lock(mutex_);
+  require_running();
+  constexpr std::uint32_t threads = 1;  // several are made at once
+  return {fiber::copy_sim_scene(*description_, scene_, threads), message_.header};
+}
 
 void SimServer::keep_pace() {
   clock_watch_.look();

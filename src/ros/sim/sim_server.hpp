@@ -19,6 +19,7 @@
 #include "src/ros/environment/mesh_loader.hpp"
 #include "src/ros/inputs/fixed_frame.hpp"
 #include "src/ros/sim/fair_mutex.hpp"
+#include "src/ros/sim/predict_service.hpp"
 #include "src/ros/sim/sim_forces.hpp"
 #include "src/ros/sim/sim_frames.hpp"
 #include "src/ros/sim/sim_markers.hpp"
@@ -52,7 +53,8 @@ fiber::SimDescription read_scene(const SimOptions& options);
 /// A frame that fails, because a step diverges or for whatever else it throws, stops the simulation
 /// for good: what was published last stays, services answer with the reason, ~reset begins again.
 ///
-/// ~step has a thread of its own, so that the other callbacks are served between its frames.
+/// ~step has a thread of its own, so that the other callbacks are served between its frames, and
+/// ~predict looks ahead in copies.
 class SimServer {
  public:
   /// @throws std::invalid_argument as read_scene and fiber::make_sim_scene, and for a frame of tf
@@ -67,6 +69,7 @@ class SimServer {
             const fiber::SimDescription& description);
 
   void advertise_services();
+  SceneCopy copy_scene();
   void keep_pace();
   void update_markers();
 
@@ -94,7 +97,8 @@ class SimServer {
 
   ros::NodeHandle node_;
   SimOptions options_;
-  FairMutex mutex_;  // of all that follows
+  FairMutex mutex_;                                           // of all that follows
+  std::shared_ptr<const fiber::SimDescription> description_;  // of the scene
   fiber::SimScene scene_;
   FixedFrame world_;
   SimFrames frames_;
@@ -121,6 +125,7 @@ class SimServer {
   ros::SteadyTimer timer_;
   ros::SteadyTimer marker_timer_;
   ros::AsyncSpinner step_spinner_{1, &step_queue_};
+  PredictService predict_service_;
 };
 
 }  // namespace fiber_proximity_ros

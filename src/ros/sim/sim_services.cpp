@@ -39,20 +39,10 @@ bool answer(Response& response, const Function& function) {
   return true;
 }
 
-/// The rod of a fibre by its name.
-std::uint32_t find_rod(const fiber::SimScene& scene, const std::string& fiber) {
-  const auto& names = scene.fiber_names;
-  const auto found = std::find(names.begin(), names.end(), fiber);
-  if (found == names.end()) {
-    throw std::invalid_argument("there is no fibre " + fiber::quote(fiber));
-  }
-  return static_cast<std::uint32_t>(found - names.begin());
-}
-
 /// Has a scene hold a node where a request says.
 void hold(const fiber_proximity::AttachFiber::Request& request, fiber::SimScene& scene) {
   const fiber::NodeOfRod held =
-      fiber::find_node(scene, find_rod(scene, request.fiber), request.node);
+      fiber::find_node(scene, fiber::find_rod(scene, request.fiber), request.node);
   const Vector3d target = to_vector(request.position);
   if (!target.allFinite() || !(request.speed >= 0.0)) {
     throw std::invalid_argument("position must be finite and speed at least 0");
@@ -87,10 +77,12 @@ bool SimServer::reset(std_srvs::Trigger::Request& /*request*/,
                       std_srvs::Trigger::Response& response) {
   return answer(response, [this] {
     // The file is read without the mutex: that may take long.
-    fiber::SimScene scene = fiber::make_sim_scene(read_scene(options_), options_.threads);
+    const auto description = std::make_shared<const fiber::SimDescription>(read_scene(options_));
+    fiber::SimScene scene = fiber::make_sim_scene(*description, options_.threads);
     frames_.wait_for(scene.frames, 0.0);
     const std::lock_guard<FairMutex> lock(mutex_);
     std::swap(scene_, scene);
+    description_ = description;
     forces_.begin();
     failure_.clear();
     interruption_ = "~reset began the scene again";
@@ -156,7 +148,7 @@ bool SimServer::detach(fiber_proximity::DetachFiber::Request& request,
   return answer(response, [&] {
     const std::lock_guard<FairMutex> lock(mutex_);
     require_running();
-    fiber::release_node(scene_, find_rod(scene_, request.fiber), request.node);
+    fiber::release_node(scene_, fiber::find_rod(scene_, request.fiber), request.node);
   });
 }
 

@@ -125,6 +125,15 @@ std::string out_of_reach(const SimScene& scene, const NodeOfRod& held, const Vec
 
 }  // namespace
 
+std::uint32_t find_rod(const SimScene& scene, const std::string& fiber) {
+  const auto& names = scene.fiber_names;
+  const auto found = std::find(names.begin(), names.end(), fiber);
+  if (found == names.end()) {
+    throw std::invalid_argument("there is no fibre " + quote(fiber));
+  }
+  return static_cast<std::uint32_t>(found - names.begin());
+}
+
 NodeOfRod find_node(const SimScene& scene, std::uint32_t rod, std::int64_t index) {
   const auto count = static_cast<std::int64_t>(scene.stepper->rods().node_count(rod));
   const std::int64_t node = index < 0 ? count + index : index;

@@ -59,6 +59,10 @@ struct NodeOfRod {
   std::uint32_t node;
 };
 
+/// The rod of a fibre by its name.
+/// @throws std::invalid_argument naming a fibre that is not there
+std::uint32_t find_rod(const SimScene& scene, const std::string& fiber);
+
 /// The node of a rod by its index; negative indices count from the end.
 /// @throws std::invalid_argument naming fibre and index if there is no such node, and for a scene
 ///         without the effect attachment

@@ -80,8 +80,8 @@ TEST_F(PredictionTest, ACopyGoesOnBitForBit) {
       expect_same_state(copy, scene);
       advance(copy, 10);
       expect_same_state(untouched, scene);
-      advance(scene, 20);
-      advance(untouched, 20);
+      advance(scene, 10);
+      advance(untouched, 10);
       expect_same_state(copy, scene);
       expect_same_state(untouched, scene);
       const auto contacts = scene.stepper->forces().contacts;
