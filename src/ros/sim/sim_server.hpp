@@ -125,7 +125,7 @@ class SimServer {
   ros::SteadyTimer timer_;
   ros::SteadyTimer marker_timer_;
   ros::AsyncSpinner step_spinner_{1, &step_queue_};
-  PredictService predict_service_;
+  std::unique_ptr<PredictService> predict_service_;
 };
 
 }  // namespace fiber_proximity_ros
