@@ -74,7 +74,7 @@ void add_trajectories(const fiber::SimScene& scene, const fiber_proximity::HoldT
   }
 }
 
-fiber_proximity::PredictedForce to_message(const fiber::GreatestForce& force) {
+fiber_proximity::PredictedForce message_of(const fiber::GreatestForce& force) {
   fiber_proximity::PredictedForce message;
   message.fiber = force.rod;
   message.index = force.node;
@@ -113,10 +113,10 @@ void fill_in(const fiber::Prediction& told, const SceneCopy& copy, Response& res
     message.time = touch.time_of_max;
   }
   for (const fiber::GreatestForce& tension : told.tensions) {
-    response.tensions.push_back(to_message(tension));
+    response.tensions.push_back(message_of(tension));
   }
   for (const fiber::GreatestForce& hold : told.holds) {
-    response.holds.push_back(to_message(hold));
+    response.holds.push_back(message_of(hold));
   }
   response.time = told.time;
   response.unbalanced_frames = told.unbalanced_frames;

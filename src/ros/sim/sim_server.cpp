@@ -100,10 +100,7 @@ SimServer::SimServer(const ros::NodeHandle& private_node, const SimOptions& opti
       frames_(world_, options.frame_timeout),
       is_paused_(options.paused),
       next_frame_(ros::SteadyTime::now()),
-      forces_(private_node),
-      predict_service_(
-          private_node, [this] { return copy_scene(); },
-          [this] { return is_ending_ || !ros::ok(); }) {
+      forces_(private_node) {
   frames_.wait_for(scene_.frames, options.frame_wait);
   log_scene(options_, description, scene_);
   fibers_ = node_.advertise<fiber_proximity::FiberArray>("fibers", 1, true);

@@ -71,6 +71,8 @@ void SimServer::advertise_services() {
   ros::NodeHandle own_thread(node_);
   own_thread.setCallbackQueue(&step_queue_);
   servers_.push_back(own_thread.advertiseService("step", &SimServer::step, this));
+  predict_service_ = std::make_unique<PredictService>(
+      node_, [this] { return copy_scene(); }, [this] { return is_ending_ || !ros::ok(); });
 }
 
 bool SimServer::reset(std_srvs::Trigger::Request& /*request*/,
