@@ -80,7 +80,7 @@ TEST_F(SimPredictTest, WhatIsToldIsWhatComes) {
   const std::vector<Vector3d> after = points_after(15);
   EXPECT_EQ(points_of(told.samples[2]), after);
   EXPECT_GT(after[11].z(), before[11].z() + 0.09) << "it is lifted";
-  EXPECT_EQ(told.samples[2].fiber_names, fibers.messages.back()->fiber_names);
+  EXPECT_EQ(told.samples[2].names, fibers.messages.back()->names);
   ASSERT_EQ(told.object_names, std::vector<std::string>{"table"});
   const auto touch = std::find_if(told.touches.begin(), told.touches.end(),
                                   [](const auto& each) { return each.fiber == 1; });
@@ -143,9 +143,9 @@ TEST_F(SimPredictTest, WhatMayNotBeAskedIsRefused) {
   EXPECT_EQ(error(trajectory), "trajectory 0: it has no entries");
   trajectory.times = {1.0};
   EXPECT_EQ(error(trajectory), "trajectory 0: there are 1 times for 0 poses");
-  trajectory.poses.resize(1);
-  EXPECT_NE(error(trajectory).find("trajectory 0: pose 0: "), std::string::npos)
-      << "a quaternion of zeros";
+  trajectory.poses = {pose_at({0, 0, 1})};
+  trajectory.poses[0].orientation.w = 0.5;
+  EXPECT_EQ(error(trajectory).find("trajectory 0: pose 0: "), 0U) << "no unit quaternion";
   trajectory.poses = {pose_at({0, 0, 1e9})};
   EXPECT_NE(error(trajectory).find("at most 1e+03 m/s are allowed"), std::string::npos);
   trajectory = HoldTrajectory();
