@@ -1,6 +1,7 @@
 # Rods that move by the effects a scene calls for, and the YAML files of scenes; no ROS.
 
 add_library(fiber_proximity_sim SHARED
+  src/sim/contact/contact_neighbours.cpp
   src/sim/contact/contact_set.cpp
   src/sim/contact/friction_anchors.cpp
   src/sim/contact/impact.cpp
@@ -19,16 +20,20 @@ add_library(fiber_proximity_sim SHARED
   src/sim/effects/section_damping.cpp
   src/sim/effects/stretch.cpp
   src/sim/effects/twist.cpp
+  src/sim/joint/joints.cpp
+  src/sim/joint/weld.cpp
   src/sim/overlaps.cpp
   src/sim/resolution.cpp
   src/sim/rods.cpp
   src/sim/sections.cpp
+  src/sim/solver/joint_solver.cpp
   src/sim/solver/newton.cpp
   src/sim/solver/pack_kernels.cpp
   src/sim/solver/newton_convergence.cpp
   src/sim/solver/newton_correction.cpp
   src/sim/solver/newton_impacts.cpp
   src/sim/solver/stage_adaption.cpp
+  src/sim/solver/stage_joints.cpp
   src/sim/solver/stage_solver.cpp
   src/sim/stepper.cpp
 )

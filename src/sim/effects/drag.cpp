@@ -105,9 +105,10 @@ Drag::Node Drag::node_at(const Rods& rods, std::uint32_t rod, std::uint32_t node
   const std::uint32_t first = rods.first(rod);
   const std::uint32_t last = rods.end(rod) - 1;
   const Vector3d& position = rods.positions[node];
-  const Vector3d tangent = direction_of(rods.positions[std::min(node + 1, last)] -
-                                        rods.positions[std::max(node, first + 1) - 1])
-                               .tangent;
+  const bool is_seam = rods.is_closed(rod) && (node == first || node == last);
+  const std::uint32_t before = is_seam ? last - 1 : std::max(node, first + 1) - 1;
+  const std::uint32_t after = is_seam ? first + 1 : std::min(node + 1, last);
+  const Vector3d tangent = direction_of(rods.positions[after] - rods.positions[before]).tangent;
   const double length =
       0.5 * ((node > first ? rods.rest_lengths[node - 1] : 0.0) + rods.rest_lengths[node]);
   const Vector3d wind = options_.wind.at(position, step.end());
