@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "fiber_proximity/geometry/segment_distance.hpp"
@@ -81,46 +82,110 @@ class LoopLimit {
   const double allowance_;
 };
 
-/// The ends of two segments that a way from one to the other does not come by: along a fibre, the
-/// first one of the segment of the smaller index and the last one of the other.
-struct OuterEnds {
-  bool is_last_of_a = false;
-  bool is_last_of_b = true;
+/// Whether any point on a way is further from one of two places than a limit [m].
+struct LoopCriterion {
+  LoopPlace x;
+  LoopPlace y;
+  double limit;
 };
 
-/// The rule of LoopTest: whether a way from one segment to another, which along a fibre is the one
-/// of the larger index, makes a loop.
+/// The criteria by which the rule of LoopTest judges each way from one segment to another.
+class LoopCriteria {
+ public:
+  /// @param nearest of the kernel robust
+  LoopCriteria(const Capsule& a, const Capsule& b, const SegmentDistance& nearest)
+      : a_(a), b_(b), nearest_(nearest), limit_(a, b) {}
+
+  /// About the places where the segments are nearest: the same of all ways.
+  LoopCriterion of_nearest() const {
+    return {place_on(a_, nearest_.s), place_on(b_, nearest_.t), limit_(nearest_.distance)};
+  }
+
+  /// About an outer end of the first segment and the place of the other that is nearest to it; none
+  /// if these are much further apart than the nearest places.
+  std::optional<LoopCriterion> of_end_of_a(bool is_last) const {
+    const Eigen::Vector3d& end = is_last ? a_.p1 : a_.p0;
+    if (is_surely_far(end, b_)) {
+      return std::nullopt;
+    }
+    const SegmentDistance distance = segment_distance(end, end, b_.p0, b_.p1);
+    if (distance.distance > reach_of_ends()) {
+      return std::nullopt;
+    }
+    return LoopCriterion{place_on(a_, is_last ? 1.0 : 0.0), place_on(b_, distance.t),
+                         limit_(distance.distance)};
+  }
+  std::optional<LoopCriterion> of_end_of_b(bool is_last) const {
+    const Eigen::Vector3d& end = is_last ? b_.p1 : b_.p0;
+    if (is_surely_far(end, a_)) {
+      return std::nullopt;
+    }
+    const SegmentDistance distance = segment_distance(a_.p0, a_.p1, end, end);
+    if (distance.distance > reach_of_ends()) {
+      return std::nullopt;
+    }
+    return LoopCriterion{place_on(a_, distance.s), place_on(b_, is_last ? 1.0 : 0.0),
+                         limit_(distance.distance)};
+  }
+
+  /// What is within this criterion, if there is one, is within all others: other places on the
+  /// segments are no further from the nearest ones than the longer segment.
+  std::optional<LoopCriterion> of_all() const {
+    LoopCriterion criterion = of_nearest();
+    criterion.limit -= limit_.longer_length();
+    return criterion.limit > 0.0 ? std::make_optional(criterion) : std::nullopt;
+  }
+
+ private:
+  double reach_of_ends() const { return nearest_.distance + std::max(a_.radius, b_.radius); }
+
+  /// Whether a point is certainly out of reach_of_ends() of a segment. Most are, and this takes a
+  /// tenth of what their distance takes.
+  bool is_surely_far(const Eigen::Vector3d& point, const Capsule& segment) const {
+    const Eigen::Vector3d along = segment.p1 - segment.p0;
+    const Eigen::Vector3d way = point - segment.p0;
+    const double t = std::clamp(way.dot(along) / along.squaredNorm(), 0.0, 1.0);
+    const double squared = (way - t * along).squaredNorm();
+    const double reach = reach_of_ends();
+    // Roundings are a few parts of 2^53 of the way, unless squares lose digits; what is not a
+    // number is not sure.
+    return squared > (1.0 + 0x1p-20) * (reach * reach) + 0x1p-40 * way.squaredNorm() &&
+           squared > min_safe_norm;
+  }
+
+  const Capsule& a_;
+  const Capsule& b_;
+  const SegmentDistance& nearest_;
+  const LoopLimit limit_;
+};
+
+/// The rule of LoopTest: whether the way along a fibre from one segment to another, which is the
+/// one of the larger index, makes a loop.
 /// @param nearest of the kernel robust
 /// @param is_left whether any point on the way, the inner ends of both segments included, is
-///                further from one of two places than a limit [m]: is_left(question, x, y, limit).
+///                further from one of two places than a limit [m]: is_left(question, x, y,
+///                limit).
 ///                Questions count from 0 and come in this order; not all need be asked
 template <class IsLeft>
 bool makes_loop_by(const Capsule& a, const Capsule& b, const SegmentDistance& nearest,
-                   const IsLeft& is_left, OuterEnds outer = {}) {
-  const LoopLimit limit(a, b);
-  const LoopPlace on_a = place_on(a, nearest.s);
-  const LoopPlace on_b = place_on(b, nearest.t);
-  const double nearest_limit = limit(nearest.distance);
-  // Other places on the segments are no further from these than the longer segment.
-  const double limit_for_all = nearest_limit - limit.longer_length();
-  if (limit_for_all > 0.0 && !is_left(0, on_a, on_b, limit_for_all)) {
+                   const IsLeft& is_left) {
+  const LoopCriteria criteria(a, b, nearest);
+  const auto asks = [&is_left](int question, const LoopCriterion& criterion) {
+    return is_left(question, criterion.x, criterion.y, criterion.limit);
+  };
+  const std::optional<LoopCriterion> of_all = criteria.of_all();
+  if (of_all && !asks(0, *of_all)) {
     return false;
   }
-  if (is_left(1, on_a, on_b, nearest_limit)) {
+  if (asks(1, criteria.of_nearest())) {
     return true;
   }
-  const double most = nearest.distance + std::max(a.radius, b.radius);
-  const Eigen::Vector3d& end_a = outer.is_last_of_a ? a.p1 : a.p0;
-  const SegmentDistance of_a = segment_distance(end_a, end_a, b.p0, b.p1);
-  if (of_a.distance <= most && is_left(2, place_on(a, outer.is_last_of_a ? 1.0 : 0.0),
-                                       place_on(b, of_a.t), limit(of_a.distance))) {
+  const std::optional<LoopCriterion> of_end_of_a = criteria.of_end_of_a(false);
+  if (of_end_of_a && asks(2, *of_end_of_a)) {
     return true;
   }
-  const Eigen::Vector3d& end_b = outer.is_last_of_b ? b.p1 : b.p0;
-  const SegmentDistance of_b = segment_distance(a.p0, a.p1, end_b, end_b);
-  return of_b.distance <= most &&
-         is_left(3, place_on(a, of_b.s), place_on(b, outer.is_last_of_b ? 1.0 : 0.0),
-                 limit(of_b.distance));
+  const std::optional<LoopCriterion> of_end_of_b = criteria.of_end_of_b(true);
+  return of_end_of_b && asks(3, *of_end_of_b);
 }
 
 }  // namespace fiber

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cmath>
 #include <memory>
+#include <optional>
 
 #include "src/geometry/fiber_graph.hpp"
 #include "src/geometry/norm.hpp"
@@ -103,12 +104,11 @@ const LoopTest::Chain& LoopTest::chain(std::uint32_t fiber) const {
   return *slot.chain;
 }
 
-/// Whether one of these points of a fibre is further from the place than the limit [m]. As many
-/// points are left out each time as it takes at least to get there, or as are in a box that is not
-/// further: a fibre may stay near one place for a million points.
-bool LoopTest::leaves(const LoopPlace& place, PointRange points_asked, double limit,
+/// Whether one of these points of a fibre is beyond the reach. As many points are left out each
+/// time as it takes at least to get there, or as are in a box that is not further: a fibre may stay
+/// near one place for a million points.
+bool LoopTest::leaves(const LoopReach& reach, PointRange points_asked,
                       std::uint64_t& loop_steps) const {
-  const LoopReach reach(place, limit);
   const std::vector<Vector3d>& points = fibers_->points();
   const std::uint32_t last = points_asked.end - 1;
   const bool is_long = points_asked.end - points_asked.begin > short_walk;
@@ -155,8 +155,8 @@ bool LoopTest::fiber_makes_loop(PointPair pair, const SegmentDistance& nearest,
   const PointRange between{pair.a + 1, pair.b + 1};
   return makes_loop_by(fibers_->capsule(pair.a), fibers_->capsule(pair.b), nearest,
                        [&](int /*question*/, const LoopPlace& x, const LoopPlace& y, double limit) {
-                         return leaves(x, between, limit, loop_steps) ||
-                                leaves(y, between, limit, loop_steps);
+                         return leaves(LoopReach(x, limit), between, loop_steps) ||
+                                leaves(LoopReach(y, limit), between, loop_steps);
                        });
 }
 
@@ -164,81 +164,116 @@ bool LoopTest::are_joined_by_graph(PointPair pair) const {
   return graph_->are_joined(fibers_->segment_id(pair.a).fiber, fibers_->segment_id(pair.b).fiber);
 }
 
-/// The points that are within the limits of questions that the rule asks.
+/// The points that are within the limits of some criteria of the rule.
 class LoopTest::Within {
  public:
   Within(const LoopTest& test, std::uint64_t& loop_steps) : test_(test), loop_steps_(loop_steps) {}
 
-  void clear() { count_ = 0; }
-  void add(const LoopPlace& x, const LoopPlace& y, double limit) {
-    questions_[count_++] = {x, y, limit};
+  /// @param criterion must outlive this
+  void add(const LoopCriterion& criterion) {
+    for (const LoopPlace* place : {&criterion.x, &criterion.y}) {
+      reaches_[count_++].emplace(*place, criterion.limit);
+    }
+  }
+  void add(const std::optional<LoopCriterion>& criterion) {
+    if (criterion) {
+      add(*criterion);
+    }
   }
 
   bool at(std::uint32_t point) const {
     const Vector3d& place = test_.fibers_->points()[point];
     ++loop_steps_;
-    return !some([&](const LoopPlace& from, double limit) {
-      return LoopReach(from, limit).is_beyond(place);
-    });
+    return all([&](const LoopReach& reach) { return !reach.is_beyond(place); });
   }
 
   bool along(std::uint32_t first, std::uint32_t last) const {
-    return !some([&](const LoopPlace& from, double limit) {
-      return test_.leaves(from, {first, last + 1}, limit, loop_steps_);
-    });
+    if (last - first > short_walk) {
+      return all([&](const LoopReach& reach) {
+        return !test_.leaves(reach, {first, last + 1}, loop_steps_);
+      });
+    }
+    for (std::uint32_t point = first; point <= last; ++point) {
+      if (!at(point)) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  bool along(const WayStretch& stretch) const {
+    return at(stretch.joint_point) && along(stretch.first, stretch.last);
   }
 
  private:
-  struct Question {
-    LoopPlace x;
-    LoopPlace y;
-    double limit;
-  };
-
-  template <class IsLeft>
-  bool some(const IsLeft& is_left) const {
-    return std::any_of(questions_.begin(), questions_.begin() + count_, [&](const Question& asked) {
-      return is_left(asked.x, asked.limit) || is_left(asked.y, asked.limit);
-    });
+  template <class Predicate>
+  bool all(const Predicate& is_held) const {
+    for (std::size_t i = 0; i < count_; ++i) {
+      if (!is_held(*reaches_[i])) {
+        return false;
+      }
+    }
+    return true;
   }
 
   const LoopTest& test_;
   std::uint64_t& loop_steps_;
-  std::array<Question, loop_question_count> questions_;
-  std::ptrdiff_t count_ = 0;
+  std::array<std::optional<LoopReach>, 6> reaches_;
+  std::size_t count_ = 0;
 };
 
 /// Whether each way through joints makes a loop. A way makes none if it is within the limits of all
-/// questions that the rule asks of those with its outer ends.
+/// criteria of the ways with its outer ends.
 bool LoopTest::all_ways_make_loops(PointPair pair, const SegmentDistance& nearest,
                                    std::uint64_t& loop_steps) const {
-  const Capsule a = fibers_->capsule(pair.a);
-  const Capsule b = fibers_->capsule(pair.b);
   const SegmentWays ways(*graph_, pair);
-  Within within(*this, loop_steps);
-  // The one about the nearest places is the same for all ways.
-  within.add(place_on(a, nearest.s), place_on(b, nearest.t), LoopLimit(a, b)(nearest.distance));
-  if (!ways.is_passable(WayEnds(), within)) {
+  WayStretches from = ways.stretches_of_a();
+  WayStretches to = ways.stretches_of_b();
+  if (from.is_empty() || to.is_empty()) {
     return true;
   }
-  for (const bool leaves_by_last : {true, false}) {
-    for (const bool arrives_by_last : {false, true}) {
-      within.clear();
-      makes_loop_by(a, b, nearest,
-                    [&](int question, const LoopPlace& x, const LoopPlace& y, double limit) {
-                      if (question > 0) {  // that one would only spare the others
-                        within.add(x, y, limit);
-                      }
-                      return question == 0;
-                    },
-                    {!leaves_by_last, !arrives_by_last});
-      if (ways.is_passable({!leaves_by_last, leaves_by_last, !arrives_by_last, arrives_by_last},
-                           within)) {
-        return false;
-      }
+  const Capsule a = fibers_->capsule(pair.a);
+  const Capsule b = fibers_->capsule(pair.b);
+  const LoopCriteria criteria(a, b, nearest);
+  const auto some_pair = [&](const auto& leads) {
+    return std::any_of(from.begin(), from.end(), [&](const WayStretch& leave) {
+      return std::any_of(to.begin(), to.end(),
+                         [&](const WayStretch& arrive) { return leads(leave, arrive); });
+    });
+  };
+  const LoopCriterion of_nearest = criteria.of_nearest();
+  Within near(*this, loop_steps);
+  near.add(of_nearest);
+  // Nearly all segments are far from all joints: their joints are looked at before any way.
+  for (WayStretches* stretches : {&from, &to}) {
+    stretches->remove_if([&](const WayStretch& each) { return !near.at(each.joint_point); });
+    if (stretches->is_empty()) {
+      return true;
     }
   }
-  return true;
+  /// The outer ends are those that the way does not come by.
+  const auto are_within = [&](const WayStretch& leave, const WayStretch& arrive,
+                              const auto& leads_between) {
+    const auto of_end_of_a = criteria.of_end_of_a(!leave.is_by_last);
+    const auto of_end_of_b = criteria.of_end_of_b(!arrive.is_by_last);
+    Within within = near;
+    within.add(of_end_of_a);
+    within.add(of_end_of_b);
+    return within.along(leave) && within.along(arrive) && leads_between(within);
+  };
+  // Nearly always a way that makes no loop comes by one joint only.
+  if (some_pair([&](const WayStretch& leave, const WayStretch& arrive) {
+        return leave.joint == arrive.joint &&
+               are_within(leave, arrive, [](const Within& /*within*/) { return true; });
+      })) {
+    return false;
+  }
+  return !ways.some_leads(from, to, near) || !some_pair([&](const WayStretch& leave,
+                                                            const WayStretch& arrive) {
+    return leave.joint != arrive.joint && are_within(leave, arrive, [&](const Within& within) {
+             return ways.some_leads(WayStretches(leave), WayStretches(arrive), within);
+           });
+  });
 }
 
 bool LoopTest::rules_out(std::uint32_t first, std::uint32_t last) const {

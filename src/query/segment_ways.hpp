@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -10,13 +11,41 @@
 
 namespace fiber {
 
-/// Which ends of two segments ways lead by: they leave the segment of the smaller index by its
-/// first point, its last, or either, and arrive at the other one alike.
-struct WayEnds {
-  bool leave_by_first = true;
-  bool leave_by_last = true;
-  bool arrive_by_first = true;
-  bool arrive_by_last = true;
+/// The points from a segment's end to the joint that a way comes to first there, that one included.
+struct WayStretch {
+  std::uint32_t joint;
+  std::uint32_t joint_point;  ///< the first point or the last
+  std::uint32_t first;
+  std::uint32_t last;
+  bool is_by_last;  ///< of the segment's ends
+};
+
+/// The stretches by which ways leave a segment, at most one at each end.
+class WayStretches {
+ public:
+  WayStretches() = default;
+  explicit WayStretches(const WayStretch& stretch) { add(stretch); }
+
+  void add(const WayStretch& stretch) { stretches_[count_++] = stretch; }
+  template <class Predicate>
+  void remove_if(const Predicate& predicate) {
+    count_ = static_cast<std::uint32_t>(
+        std::remove_if(stretches_.begin(), stretches_.begin() + count_, predicate) -
+        stretches_.begin());
+  }
+
+  bool is_empty() const { return count_ == 0; }
+  const WayStretch* begin() const { return stretches_.data(); }
+  const WayStretch* end() const { return stretches_.data() + count_; }
+
+  bool lead_to(std::uint32_t joint) const {
+    return std::any_of(begin(), end(),
+                       [joint](const WayStretch& stretch) { return stretch.joint == joint; });
+  }
+
+ private:
+  std::array<WayStretch, 2> stretches_;
+  std::uint32_t count_ = 0;
 };
 
 /// The ways along a graph from one segment to another that come by a joint and run through neither
@@ -25,72 +54,16 @@ class SegmentWays {
  public:
   SegmentWays(const FiberGraph& graph, PointPair pair) : graph_(graph), pair_(pair) {}
 
-  /// Whether there is one that is passable. Takes time in proportion to what is.
-  /// @param passable tells which points are: passable.at(point), passable.along(first, last) for
-  ///                 points of one fibre
+  /// The stretches by which ways may leave the segment of the smaller index, or reach the other.
+  WayStretches stretches_of_a() const { return stretches_at(pair_.a); }
+  WayStretches stretches_of_b() const { return stretches_at(pair_.b); }
+
+  /// Whether between their joints there is a passable way from one of these stretches to one of
+  /// those. Takes time in proportion to what is passable.
+  /// @param passable tells which points are: passable.along(first, last) for points of one fibre
   template <class Passable>
-  bool is_passable(const WayEnds& ends, const Passable& passable) const {
-    // Nearly all segments are far from all joints: both ends are looked at before any search.
-    Stretches from = stretches_at(pair_.a, ends.leave_by_first, ends.leave_by_last, passable);
-    if (from.count == 0) {
-      return false;
-    }
-    Stretches to = stretches_at(pair_.b, ends.arrive_by_first, ends.arrive_by_last, passable);
-    return leave_passable(from, passable) && leave_passable(to, passable) &&
-           some_leads(from, to, passable);
-  }
-
- private:
-  /// The points from a segment's end to the joint that it comes to first, that one included.
-  struct Stretch {
-    std::uint32_t joint;
-    std::uint32_t first;
-    std::uint32_t last;
-  };
-  struct Stretches {
-    Stretch stretches[2];
-    std::uint32_t count = 0;
-
-    bool lead_to(std::uint32_t joint) const {
-      return std::any_of(stretches, stretches + count,
-                         [joint](const Stretch& stretch) { return stretch.joint == joint; });
-    }
-  };
-
-  /// Those whose joint point is passable.
-  template <class Passable>
-  Stretches stretches_at(std::uint32_t segment, bool from_first, bool from_last,
-                         const Passable& passable) const {
-    const std::vector<FiberGraph::JointPoint>& points = graph_.joint_points();
-    Stretches found;
-    const auto add = [&](std::uint32_t index, std::uint32_t first, std::uint32_t last) {
-      if (is_free(first, last) && passable.at(points[index].point)) {
-        found.stretches[found.count++] = {points[index].joint, first, last};
-      }
-    };
-    const std::uint32_t before = from_first ? graph_.last_until(segment) : FiberGraph::none;
-    if (before != FiberGraph::none) {
-      add(before, points[before].point, segment);
-    }
-    const std::uint32_t after = from_last ? graph_.next_from(segment + 1) : FiberGraph::none;
-    if (after != FiberGraph::none) {
-      add(after, segment + 1, points[after].point);
-    }
-    return found;
-  }
-
-  /// Leaves those that are passable; whether any is.
-  template <class Passable>
-  static bool leave_passable(Stretches& found, const Passable& passable) {
-    Stretch* const end = std::remove_if(
-        found.stretches, found.stretches + found.count,
-        [&](const Stretch& stretch) { return !passable.along(stretch.first, stretch.last); });
-    found.count = static_cast<std::uint32_t>(end - found.stretches);
-    return found.count > 0;
-  }
-
-  template <class Passable>
-  bool some_leads(const Stretches& from, const Stretches& to, const Passable& passable) const {
+  bool some_leads(const WayStretches& from, const WayStretches& to,
+                  const Passable& passable) const {
     JointMarks& reached = JointMarks::cleared(graph_.joint_count());
     thread_local std::vector<std::uint32_t> waiting;
     waiting.clear();
@@ -98,8 +71,8 @@ class SegmentWays {
       reached.mark(joint);
       waiting.push_back(joint);
     };
-    for (std::uint32_t i = 0; i < from.count; ++i) {
-      reach(from.stretches[i].joint);
+    for (const WayStretch& stretch : from) {
+      reach(stretch.joint);
     }
     const std::vector<FiberGraph::JointPoint>& points = graph_.joint_points();
     const auto reach_along = [&](std::uint32_t stretch, std::uint32_t index) {
@@ -123,6 +96,21 @@ class SegmentWays {
       }
     }
     return false;
+  }
+
+ private:
+  WayStretches stretches_at(std::uint32_t segment) const {
+    const std::vector<FiberGraph::JointPoint>& points = graph_.joint_points();
+    WayStretches found;
+    const std::uint32_t before = graph_.last_until(segment);
+    if (before != FiberGraph::none && is_free(points[before].point, segment)) {
+      found.add({points[before].joint, points[before].point, points[before].point, segment, false});
+    }
+    const std::uint32_t after = graph_.next_from(segment + 1);
+    if (after != FiberGraph::none && is_free(segment + 1, points[after].point)) {
+      found.add({points[after].joint, points[after].point, segment + 1, points[after].point, true});
+    }
+    return found;
   }
 
   /// Whether neither of the two segments is between these points of one fibre.

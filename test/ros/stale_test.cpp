@@ -141,7 +141,11 @@ TEST_F(StaleTest, WhenAllStopTheLastAnswersAreEmptyAndIncomplete) {
   }
   const ros::Time stamp = now();
   a_.publish(message(stamp));
-  ASSERT_NE(contacts.wait_for(stamp), nullptr);
+  // An answer without fibres has the time of the answer, which may be this one.
+  ASSERT_NE(contacts.wait_for([&](const ContactArray& answer) {
+    return answer.header.stamp == stamp && answer.fiber_names == Names{"a"};
+  }),
+            nullptr);
   for (std::size_t i = answers; i < contacts.messages.size(); ++i) {
     const ContactArray& answer = *contacts.messages[i];
     EXPECT_TRUE(answer.fiber_names.empty() || answer.header.stamp == stamp)

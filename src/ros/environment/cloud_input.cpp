@@ -45,7 +45,8 @@ CloudInput::CloudInput(ros::NodeHandle private_node, const CloudOptions& options
       on_message_(std::move(on_message)),
       log_(private_node.resolveName("cloud"), "sensor_msgs/PointCloud2"),
       cells_(options),
-      subscriber_(private_node.subscribe("cloud", 1, &CloudInput::receive, this)) {}
+      subscriber_(private_node.subscribe("cloud", 1, &CloudInput::receive, this,
+                                         ros::TransportHints().tcpNoDelay())) {}
 
 bool CloudInput::update(const ros::Time& now, FixedFrame& frame, fiber::World& world) {
   while (waiting_ && place_waiting(frame)) {

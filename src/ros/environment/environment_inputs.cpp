@@ -86,8 +86,9 @@ EnvironmentInputs::EnvironmentInputs(const ros::NodeHandle& node,
     cloud_ = std::make_unique<CloudInput>(own, *options.cloud, options.tf_timeout, max_stamp_ahead_,
                                           on_message_);
   }
-  subscribers_.push_back(
-      own.subscribe("obstacles", queue_size, &EnvironmentInputs::receive_obstacles, this));
+  subscribers_.push_back(own.subscribe("obstacles", queue_size,
+                                       &EnvironmentInputs::receive_obstacles, this,
+                                       ros::TransportHints().tcpNoDelay()));
   subscribe_to_markers(node, options);  // after the node's own topics, which come first
   const auto apply = [this](ObstacleService::Obstacles obstacles,
                             const ObstacleService::Answer& answer) {
@@ -197,9 +198,11 @@ void EnvironmentInputs::subscribe_to_markers(ros::NodeHandle node,
           receive_markers(std::make_shared<const Markers>(1, *message), source);
         };
     const auto subscribe = [&] {
+      const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
       subscribers_.push_back(
-          topic.is_array ? node.subscribe<MarkerArray>(topic.topic, queue_size, receive_array)
-                         : node.subscribe<Marker>(topic.topic, queue_size, receive_one));
+          topic.is_array
+              ? node.subscribe<MarkerArray>(topic.topic, queue_size, receive_array, {}, hints)
+              : node.subscribe<Marker>(topic.topic, queue_size, receive_one, {}, hints));
     };
     if (!subscribes("parameter ~obstacle_markers, topic '" + topic.topic + "'", subscribe)) {
       markers_.pop_back();

@@ -33,7 +33,7 @@ std::string tf2_name(const std::string& frame_id) {
 }
 
 FixedFrame::FixedFrame(const std::string& name, const ros::NodeHandle& node)
-    : name_(tf2_name(name)), listener_(buffer_, node) {}
+    : name_(tf2_name(name)), listener_(buffer_, node, true, ros::TransportHints().tcpNoDelay()) {}
 
 void FixedFrame::adopt(const std::string& frame) {
   if (name_.empty() && !frame.empty()) {

@@ -177,7 +177,7 @@ bool respond(const DetectedScene& subject, const std::function<void()>& before_a
                           asks_about_fibers ? &subject.detector.engine() : nullptr, *environment,
                           subject.query, deadline});
     response.header = fibers.header();
-    if (!fibers.is_fresh()) {
+    if (!asks_about_fibers || !fibers.is_fresh()) {
       response.header.frame_id = fibers.frame().name();
       response.header.stamp = ros::Time::now();
     }

@@ -12,7 +12,7 @@
 namespace FIBER_PROXIMITY_EXPORT fiber {
 
 class FiberGraph;
-struct LoopPlace;
+class LoopReach;
 
 /// Tells contacts of a fibre with itself from segments that are near because they follow each
 /// other: self-contact needs a loop.
@@ -86,8 +86,7 @@ class LoopTest {
     return point < fibers_->offsets()[fiber + 1];
   }
   const Chain& chain(std::uint32_t fiber) const;
-  bool leaves(const LoopPlace& place, PointRange points, double limit,
-              std::uint64_t& loop_steps) const;
+  bool leaves(const LoopReach& reach, PointRange points, std::uint64_t& loop_steps) const;
   bool fiber_makes_loop(PointPair pair, const SegmentDistance& nearest,
                         std::uint64_t& loop_steps) const;
   bool are_joined_by_graph(PointPair pair) const;
