@@ -13,42 +13,12 @@
 
 #include "fiber_proximity/mpi/distributed_files.hpp"
 #include "src/mpi/hdf5_file.hpp"
+#include "test/mpi/open_file.hpp"
 #include "test/mpi/scattered_fibers.hpp"
 #include "test/mpi/shared_folder.hpp"
 
 namespace fiber::test {
 namespace {
-
-/// A file of HDF5 that one rank changes.
-class OpenFile {
- public:
-  explicit OpenFile(const std::string& path)
-      : file_(H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose, "cannot be opened") {}
-
-  hid_t get() const { return file_.get(); }
-
-  void remove(const std::string& path) const {
-    require_success(H5Ldelete(file_.get(), path.c_str(), H5P_DEFAULT), "cannot be removed");
-  }
-
-  /// Another dataset in place of one.
-  template <class T>
-  void replace(const std::string& path, Hdf5Shape shape, const std::vector<T>& values) const {
-    remove(path);
-    const Hdf5Id dataset = create_dataset(file_.get(), path, hdf5_type(T()).file, shape);
-    write_rows(dataset.get(), hdf5_type(T()).memory, 0, shape, values.data());
-  }
-
-  template <class T>
-  void set(const std::string& path, std::uint64_t row, const std::vector<T>& values) const {
-    const Hdf5Id dataset = open_dataset(file_.get(), path);
-    write_rows(dataset.get(), hdf5_type(T()).memory, row, {1, values.size()}, values.data());
-  }
-
- private:
-  const QuietHdf5 quiet_;
-  Hdf5Id file_;
-};
 
 /// Three fibres of 4, 3 and 5 points, on rank 0.
 DistributedFibers three_fibers() {
@@ -65,11 +35,12 @@ DistributedFibers three_fibers() {
   return fibers;
 }
 
-void write_fibers_to(const std::string& path, const DistributedFileOptions& options = {}) {
+void write_fibers_to(const std::string& path, const DistributedFileOptions& options = {},
+                     const DistributedFibers& fibers = three_fibers()) {
   DistributedFiberWriter writer(MPI_COMM_WORLD, path, options);
-  writer.write(0, three_fibers());
+  writer.write(0, fibers);
   if (options.has_frames) {
-    writer.write(1, three_fibers());
+    writer.write(1, fibers);
   }
   writer.finish();
 }
@@ -165,9 +136,7 @@ TEST(BrokenFiles, WhatIsWrongWithJointsIsSaid) {
        "joint_tolerance is -0.5 m, it must be at least 0"},
   };
   for (const Damage& damage : damages) {
-    DistributedFiberWriter writer(MPI_COMM_WORLD, path);
-    writer.write(0, fibers);
-    writer.finish();
+    write_fibers_to(path, {}, fibers);
     expect_result_of(damage, path);
   }
 }
