@@ -1,6 +1,7 @@
 # Rods that move by the effects a scene calls for, and the YAML files of scenes; no ROS.
 
 add_library(fiber_proximity_sim SHARED
+  src/sim/contact/contact_neighbours.cpp
   src/sim/contact/contact_set.cpp
   src/sim/contact/friction_anchors.cpp
   src/sim/contact/impact.cpp
@@ -12,20 +13,26 @@ add_library(fiber_proximity_sim SHARED
   src/sim/effects/bend.cpp
   src/sim/effects/contacts.cpp
   src/sim/effects/damping.cpp
+  src/sim/effects/drag.cpp
+  src/sim/effects/gravity.cpp
   src/sim/effects/loads.cpp
   src/sim/effects/natural_bend.cpp
   src/sim/effects/section_damping.cpp
   src/sim/effects/stretch.cpp
   src/sim/effects/twist.cpp
+  src/sim/joint/joints.cpp
+  src/sim/joint/weld.cpp
   src/sim/overlaps.cpp
   src/sim/resolution.cpp
   src/sim/rods.cpp
+  src/sim/solver/joint_solver.cpp
   src/sim/solver/newton.cpp
   src/sim/solver/pack_kernels.cpp
   src/sim/solver/newton_convergence.cpp
   src/sim/solver/newton_correction.cpp
   src/sim/solver/newton_impacts.cpp
   src/sim/solver/stage_adaption.cpp
+  src/sim/solver/stage_joints.cpp
   src/sim/solver/stage_solver.cpp
   src/sim/stepper.cpp
 )
@@ -36,17 +43,22 @@ fiber_proximity_component(sim fiber_proximity_sim)
 
 # The files of scenes: compiled apart, as nothing in them takes time.
 add_library(sim_scene OBJECT
+  src/sim/scene/effect_keys.cpp
   src/sim/scene/effects.cpp
   src/sim/scene/fibers.cpp
   src/sim/scene/force_file.cpp
   src/sim/scene/holds.cpp
   src/sim/scene/keys.cpp
+  src/sim/scene/loads.cpp
+  src/sim/scene/named_nodes.cpp
+  src/sim/scene/natural_curvature.cpp
   src/sim/scene/reach.cpp
   src/sim/scene/real_time.cpp
   src/sim/scene/report.cpp
   src/sim/scene/resolution.cpp
   src/sim/scene/scene.cpp
   src/sim/scene/shapes.cpp
+  src/sim/scene/times.cpp
 )
 set_target_properties(sim_scene PROPERTIES POSITION_INDEPENDENT_CODE ON)
 target_link_libraries(sim_scene PRIVATE Eigen3::Eigen yaml-cpp fiber_proximity_options)

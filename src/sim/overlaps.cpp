@@ -8,8 +8,9 @@
 #include <numeric>
 #include <tuple>
 
-#include "src/sim/contact/edge_contact.hpp"
+#include "src/sim/contact/contact_neighbours.hpp"
 #include "src/sim/edges.hpp"
+#include "src/sim/joint/unite_joints.hpp"
 
 namespace fiber {
 
@@ -68,14 +69,12 @@ void OverlapFinder::find_between_rods(const Rods& rods, double share, std::vecto
   query_.neighbour_skip_length = min_length_now(rods);
   engine_->update(fibers_);
   engine_->query(query_, result_);
-  const std::vector<double> arcs = contact_arcs(rods);
+  const ContactNeighbours neighbours(rods);
   for (const Contact& contact : result_.contacts) {
     const double touching = rods.radii[contact.fiber_a] + rods.radii[contact.fiber_b];
     const bool are_neighbours =
-        contact.fiber_a == contact.fiber_b &&
-        are_contact_neighbours(rods, arcs, contact.fiber_a,
-                               rods.first(contact.fiber_a) + contact.segment_a,
-                               rods.first(contact.fiber_b) + contact.segment_b);
+        neighbours.contain(rods, contact.fiber_a, rods.first(contact.fiber_a) + contact.segment_a,
+                           contact.fiber_b, rods.first(contact.fiber_b) + contact.segment_b);
     if (-contact.distance > share * touching && !are_neighbours) {
       found.push_back({contact, false});
     }
@@ -343,6 +342,7 @@ std::vector<Overlap> separate_overlaps(Rods& rods, OverlapFinder& finder,
     for (const Patch& patch : patches_of(overlaps)) {
       separation.separate(patch);
     }
+    unite_joints(rods, is_held);
   }
   return finder.find(rods, touching_share, max_at_once);
 }

@@ -89,13 +89,14 @@ void require_finite(const Rods& rods) {
 }
 
 Stepper::Stepper(Rods rods, Effects effects, const StepperOptions& options,
-                 std::unique_ptr<Contacts> contacts)
+                 std::unique_ptr<Contacts> contacts, std::unique_ptr<Joints> joints)
     : rods_(std::move(rods)),
       effects_(std::move(effects)),
       options_(options),
-      contacts_(std::move(contacts)) {
+      contacts_(std::move(contacts)),
+      joints_(std::move(joints)) {
   validate(options);
-  solver_ = std::make_unique<StageSolver>(rods_, options, contacts_.get());
+  solver_ = std::make_unique<StageSolver>(rods_, options, contacts_.get(), joints_.get());
 }
 
 Stepper::~Stepper() = default;
@@ -107,6 +108,9 @@ void Stepper::step(double length) {
   }
   require_finite(rods_);
   report_ = StepReport{};
+  if (joints_ != nullptr) {
+    joints_->unite(rods_);
+  }
   const double before = kinetic_energy(rods_) + solver_->anchor_energy();
   if (options_.integrator == Integrator::IMPLICIT_EULER) {
     solver_->solve(rods_, effects_, {time_, length}, nullptr);
@@ -117,6 +121,9 @@ void Stepper::step(double length) {
   solver_->keep_anchors(rods_);
   for (const auto& effect : effects_) {
     effect->end_step(rods_, {time_, length});
+  }
+  if (joints_ != nullptr) {
+    joints_->end_step(rods_);
   }
   require_finite(rods_);
   report_.energy_gain += kinetic_energy(rods_) + solver_->anchor_energy() - before;

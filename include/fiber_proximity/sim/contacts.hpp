@@ -79,6 +79,7 @@ class Contacts {
 };
 
 struct EdgePair;
+class ContactNeighbours;
 
 /// A cable that falls on a table from 1 m rises 4 cm.
 constexpr double default_restitution = 0.2;
@@ -117,9 +118,9 @@ class FiberContact : public ContactSource {
 
   Options options_;
   std::unique_ptr<ProximityEngine> engine_;
-  FiberAssembly fibers_;      // where the rods were when candidates were looked for
-  double reach_ = -1.0;       // [m] surfaces further apart then are no candidates
-  std::vector<double> arcs_;  // along each rod at rest, by node [m]
+  FiberAssembly fibers_;  // where the rods were when candidates were looked for
+  double reach_ = -1.0;   // [m] surfaces further apart then are no candidates
+  std::unique_ptr<ContactNeighbours> neighbours_;
   std::vector<EdgePair> candidates_;
   std::vector<double> candidate_distances_;  // of axes, when they were looked for [m]
   QueryResult result_;

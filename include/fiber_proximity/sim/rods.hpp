@@ -40,6 +40,12 @@ struct RodSection {
 ///         positive and finite, or a bending share out of its range
 RodSection solid_round_section(const RodMaterial& material, double radius);
 
+/// A part of a rod, by the lengths at rest from the rod's first node to its ends [m].
+struct RodPart {
+  double from = 0.0;
+  double to = 0.0;
+};
+
 /// The positions of rods, and their rates.
 struct RodState {
   std::vector<Eigen::Vector3d> positions;   ///< of nodes [m]
@@ -64,6 +70,14 @@ struct Rods : RodState {
   std::vector<double> radii;         ///< by rod [m]
   std::vector<RodSection> sections;  ///< by rod
 
+  /// By rod: not 0 where the last node is the first one again, and Joints::close() joins the two.
+  /// Empty: no rod is closed.
+  std::vector<std::uint8_t> closed;
+
+  /// By node, as FiberTopology has them: nodes of the same number are one place, that of a joint or
+  /// of a closed rod's ends; negative: the node is not joined. Joints keeps them. Empty: none is.
+  std::vector<std::int32_t> joints;
+
   std::vector<double> masses;        ///< [kg]
   std::vector<double> rest_lengths;  ///< of edges, 0 at each rod's last node [m]
 
@@ -85,9 +99,16 @@ struct Rods : RodState {
   std::uint32_t end(std::uint32_t rod) const { return offsets[rod + 1]; }
   std::uint32_t node_count(std::uint32_t rod) const { return end(rod) - first(rod); }
 
+  bool is_closed(std::uint32_t rod) const { return !closed.empty() && closed[rod] != 0; }
+
   /// Length at rest that belongs to an inner node: half of each of its edges [m].
   double rest_length_at(std::uint32_t node) const {
     return 0.5 * (rest_lengths[node - 1] + rest_lengths[node]);
+  }
+
+  /// Length at rest that belongs to the place where a closed rod begins and ends [m].
+  double rest_length_at_seam(std::uint32_t rod) const {
+    return 0.5 * (rest_lengths[end(rod) - 2] + rest_lengths[first(rod)]);
   }
 
   /// The moment of inertia of an edge's cross-section about the tangent [kg m²]; 0 at each rod's

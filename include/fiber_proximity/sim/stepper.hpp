@@ -6,6 +6,7 @@
 #include "fiber_proximity/sim/contacts.hpp"
 #include "fiber_proximity/sim/effect.hpp"
 #include "fiber_proximity/sim/forces.hpp"
+#include "fiber_proximity/sim/joints.hpp"
 
 namespace fiber {
 
@@ -79,9 +80,10 @@ struct StepReport {
 class Stepper {
  public:
   /// @param contacts null for none; nothing is computed for them then
+  /// @param joints   of these rods; null for none, alike
   /// @throws std::invalid_argument for options that are not allowed
   Stepper(Rods rods, Effects effects, const StepperOptions& options = {},
-          std::unique_ptr<Contacts> contacts = nullptr);
+          std::unique_ptr<Contacts> contacts = nullptr, std::unique_ptr<Joints> joints = nullptr);
   ~Stepper();
   Stepper(const Stepper&) = delete;
   Stepper& operator=(const Stepper&) = delete;
@@ -97,6 +99,9 @@ class Stepper {
 
   /// [s] since the beginning
   double time() const { return time_; }
+
+  /// Null for none.
+  const Joints* joints() const { return joints_.get(); }
 
   /// The result of the last step.
   const StepReport& report() const { return report_; }
@@ -130,6 +135,7 @@ class Stepper {
   StepReport report_;
   History history_;
   std::unique_ptr<Contacts> contacts_;
+  std::unique_ptr<Joints> joints_;
   std::unique_ptr<StageSolver> solver_;
 };
 

@@ -29,7 +29,8 @@ void validate(const Rods& rods, const Attachment::Hold& hold) {
   if (hold.node >= count) {
     refuse(hold, "the rod has " + std::to_string(count) + " nodes");
   }
-  if (hold.kind == Attachment::Kind::CLAMP && hold.node != 0 && hold.node + 1 != count) {
+  if (hold.kind == Attachment::Kind::CLAMP &&
+      (rods.is_closed(hold.rod) || (hold.node != 0 && hold.node + 1 != count))) {
     refuse(hold, "a clamp must be at an end of the rod");
   }
   if (!hold.placement) {

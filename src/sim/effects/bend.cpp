@@ -232,15 +232,26 @@ Plasticity::Plasticity(Rods& rods, const Options& options) : options_(options) {
 void Plasticity::end_step(Rods& rods, const TimeStep& /*step*/) {
   for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
     const double yield = options_.yield_strain / rods.radii[rod];
-    for (std::uint32_t i = rods.first(rod) + 1; i + 1 < rods.end(rod); ++i) {
-      const Vector3d turn = edge_direction(rods, i).tangent - edge_direction(rods, i - 1).tangent;
+    const auto bend = [&](std::uint32_t node, std::uint32_t edge, std::uint32_t next,
+                          double length) {
+      const Vector3d turn = edge_direction(rods, next).tangent - edge_direction(rods, edge).tangent;
       const double half_turn = std::min(1.0, 0.5 * turn.norm());
-      const double curvature = 2.0 * std::asin(half_turn) / rods.rest_length_at(i);
-      const double elastic = curvature - rods.natural_curvatures[i];
+      const double curvature = 2.0 * std::asin(half_turn) / length;
+      const double elastic = curvature - rods.natural_curvatures[node];
       const double excess = std::abs(elastic) - yield;
       if (excess > 0.0) {
-        rods.natural_curvatures[i] += std::copysign((1.0 - options_.hardening) * excess, elastic);
+        rods.natural_curvatures[node] +=
+            std::copysign((1.0 - options_.hardening) * excess, elastic);
       }
+    };
+    const std::uint32_t first = rods.first(rod);
+    const std::uint32_t last = rods.end(rod) - 1;
+    for (std::uint32_t i = first + 1; i < last; ++i) {
+      bend(i, i - 1, i, rods.rest_length_at(i));
+    }
+    if (rods.is_closed(rod)) {
+      bend(first, last - 1, first, rods.rest_length_at_seam(rod));
+      rods.natural_curvatures[last] = rods.natural_curvatures[first];
     }
   }
 }

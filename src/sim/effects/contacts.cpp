@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "src/sim/contact/contact_neighbours.hpp"
 #include "src/sim/contact/contact_set.hpp"
 #include "src/sim/require.hpp"
 #include "src/sim/solver/step_bound.hpp"
@@ -130,7 +131,7 @@ void FiberContact::add_near(const Rods& rods, const TravelBound& bound, double a
 void FiberContact::find_candidates(const Rods& rods, double reach) {
   if (fibers_.point_count() != rods.positions.size()) {
     fibers_ = FiberAssembly(rods.positions, rods.offsets, rods.radii);
-    arcs_ = contact_arcs(rods);
+    neighbours_ = std::make_unique<ContactNeighbours>(rods);
   } else {
     fibers_.update_points(rods.positions);
   }
@@ -145,8 +146,7 @@ void FiberContact::find_candidates(const Rods& rods, double reach) {
   candidate_distances_.clear();
   for (const Contact& contact : result_.contacts) {
     const EdgePair pair = candidate(rods, contact);
-    if (pair.rod_a != pair.rod_b ||
-        !are_contact_neighbours(rods, arcs_, pair.rod_a, pair.edge_a, pair.edge_b)) {
+    if (!neighbours_->contain(rods, pair.rod_a, pair.edge_a, pair.rod_b, pair.edge_b)) {
       candidates_.push_back(pair);
       candidate_distances_.push_back(contact.distance + rods.radii[pair.rod_a] +
                                      rods.radii[pair.rod_b]);
@@ -170,20 +170,20 @@ EdgePair FiberContact::candidate(const Rods& rods, const Contact& contact) const
   pair.restitution = options_.restitution;
   // Two pairs of edges contain the contact of a node and another edge: those of the node's two
   // edges. The pair of the edge further along the rod owns it, for it exists if the other pair
-  // does.
-  pair.owns = {pair.edge_a == rods.first(pair.rod_a), true, true,
-               pair.edge_b + 2 == rods.end(pair.rod_b)};
-  const auto may_touch = [&](std::uint32_t edge_a, std::uint32_t edge_b) {
-    return pair.rod_a != pair.rod_b ||
-           !are_contact_neighbours(rods, arcs_, pair.rod_a, edge_a, edge_b);
-  };
+  // does. The first node of a closed rod is its last one.
+  pair.owns = {pair.edge_a == rods.first(pair.rod_a) && !rods.is_closed(pair.rod_a), true, true,
+               pair.edge_b + 2 == rods.end(pair.rod_b) && !rods.is_closed(pair.rod_b)};
   for (std::uint32_t end = 0; end < 4; ++end) {
     const bool is_of_a = end < 2;
     const std::uint32_t other_rod = is_of_a ? pair.rod_b : pair.rod_a;
     const std::uint32_t other = is_of_a ? pair.edge_b : pair.edge_a;
+    const std::uint32_t own_rod = is_of_a ? pair.rod_a : pair.rod_b;
     const std::uint32_t own = is_of_a ? pair.edge_a : pair.edge_b;
-    pair.has_neighbour[end] = {other > rods.first(other_rod) && may_touch(own, other - 1),
-                               other + 2 < rods.end(other_rod) && may_touch(own, other + 1)};
+    const auto may_touch = [&](std::uint32_t edge) {
+      return !neighbours_->contain(rods, own_rod, own, other_rod, edge);
+    };
+    pair.has_neighbour[end] = {other > rods.first(other_rod) && may_touch(other - 1),
+                               other + 2 < rods.end(other_rod) && may_touch(other + 1)};
   }
   return pair;
 }

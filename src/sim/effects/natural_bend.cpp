@@ -129,15 +129,15 @@ void NaturalBend::add_derivatives(RodSystem& system) const {
 
 namespace {
 
-/// The angle and the side to which a rod bends at a node.
+/// The angle and the side to which a rod bends from one edge to the next.
 struct Turn {
   double angle;
   Vector3d side;  ///< across the edge before, of unit length; zero if it does not bend
 };
 
-Turn turn_at(const Rods& rods, std::uint32_t node) {
-  const Vector3d a = edge_direction(rods, node - 1).tangent;
-  const Vector3d b = edge_direction(rods, node).tangent;
+Turn turn_between(const Rods& rods, std::uint32_t edge, std::uint32_t next) {
+  const Vector3d a = edge_direction(rods, edge).tangent;
+  const Vector3d b = edge_direction(rods, next).tangent;
   const double cosine = a.dot(b);
   const Vector3d across = b - cosine * a;
   const bool has_side = across.norm() > 0.0;
@@ -163,16 +163,25 @@ void set_natural_shape(Rods& rods) {
   } else {
     rods.natural_curvatures.assign(rods.positions.size(), 0.0);
   }
+  const auto set = [&](std::uint32_t node, std::uint32_t edge, std::uint32_t next, double length) {
+    const Turn turn = turn_between(rods, edge, next);
+    const double curvature = turn.angle / length;
+    if (has_twist) {
+      rods.natural_curvature_vectors[node] =
+          curvature * by_material(cross_section(rods, edge), turn.side);
+    } else {
+      rods.natural_curvatures[node] = curvature;
+    }
+  };
   for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
-    for (std::uint32_t i = rods.first(rod) + 1; i + 1 < rods.end(rod); ++i) {
-      const Turn turn = turn_at(rods, i);
-      const double curvature = turn.angle / rods.rest_length_at(i);
-      if (has_twist) {
-        rods.natural_curvature_vectors[i] =
-            curvature * by_material(cross_section(rods, i - 1), turn.side);
-      } else {
-        rods.natural_curvatures[i] = curvature;
-      }
+    const std::uint32_t first = rods.first(rod);
+    const std::uint32_t last = rods.end(rod) - 1;
+    for (std::uint32_t i = first + 1; i < last; ++i) {
+      set(i, i - 1, i, rods.rest_length_at(i));
+    }
+    if (rods.is_closed(rod)) {
+      set(first, last - 1, first, rods.rest_length_at_seam(rod));
+      set(last, last - 1, first, rods.rest_length_at_seam(rod));
     }
   }
 }

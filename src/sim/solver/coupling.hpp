@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "src/sim/contact/contact_set.hpp"
+#include "src/sim/solver/joint_solver.hpp"
 #include "src/sim/solver/pack_kernels.hpp"
 #include "src/sim/solver/pack_step.hpp"
 
@@ -40,7 +41,8 @@ using LaneIslands = std::array<std::uint32_t, lane_count>;
 
 /// Newton's step of rods whose contacts reach beyond the bands of their Hessians, by preconditioned
 /// conjugate gradients with the bands' factors as preconditioner M (Nocedal and Wright 2006,
-/// Alg. 5.3). Each island has its own iteration.
+/// Alg. 5.3). Each island has its own iteration. With joints, M is that of JointSolver, which keeps
+/// all iterates among the steps that move places as one (Gould, Hribar and Nocedal 2001).
 ///
 /// The Hessian A is M and the coupling by contacts. The product A p with a direction p needs no
 /// band: p is a sum of preconditioned residuals, so that M p is the same sum of residuals.
@@ -55,6 +57,8 @@ class Coupling {
                                               ///< alone [J]; 0 where the island has converged
     const ContactTerms& contacts;
     const std::vector<std::size_t>& places;  ///< of nodes in the step
+    JointSolver* joint_solver;               ///< null for none; factorised
+    const JointSolver::Problem* joints;
   };
 
   /// Makes the step by the bands alone Newton's step by the whole Hessian.
@@ -129,10 +133,22 @@ class Coupling {
       std::copy_n(&residual_[first], size.count, &preconditioner_product_[first]);
       partial_sums_[pack] = dot_products(size, &residual_[first], &direction_[first]);
     });
+    precondition_joints(problem, direction_);
     const std::vector<double> norms = sums(problem);
     for (std::size_t i = 0; i < states_.size(); ++i) {
       states_[i].squared_norm = norms[i];
     }
+  }
+
+  /// With joints, makes the preconditioned residual by the bands alone that by M.
+  void precondition_joints(const Problem& problem, std::vector<SimdBatch>& preconditioned) {
+    if (problem.joint_solver == nullptr) {
+      return;
+    }
+    problem.joint_solver->solve(*problem.joints, problem.packs, residual_, preconditioned);
+    for_each_part(problem, Work::LITTLE, [&](std::size_t pack, std::size_t first, SumSize size) {
+      partial_sums_[pack] = dot_products(size, &residual_[first], &preconditioned[first]);
+    });
   }
 
   /// Whether the residual of any island is above the tolerance.
@@ -177,6 +193,7 @@ class Coupling {
       solve_band(pack_step.system(), &preconditioned_[first]);
       partial_sums_[pack] = dot_products(size, &residual_[first], &preconditioned_[first]);
     });
+    precondition_joints(problem, preconditioned_);
     const std::vector<double> norms = sums(problem);
     for (std::size_t i = 0; i < states_.size(); ++i) {
       states_[i].squared_norm = norms[i];

@@ -134,13 +134,16 @@ std::optional<double> NewtonSolver::solve(Rods& rods, const Problem& problem) {
 void NewtonSolver::evaluate_energies(Rods& rods, const Problem& problem) {
   for_each_pack(packs_.size(), Work::MUCH, [&](std::size_t pack) {
     packs_[pack].evaluate_energies(problem.effects);
-    if (problem.contacts != nullptr) {
+    if (problem.contacts != nullptr || problem.joints != nullptr) {
       store(packs_[pack].rods(), rods);
     }
   });
   if (problem.contacts != nullptr) {
     problem.contacts->update_distances(rods);
     problem.contacts->evaluate_energies(rods);
+  }
+  if (problem.joints != nullptr) {
+    joint_solver_.evaluate_energies(joint_problem(problem), rods);
   }
   sum_energies(problem);
 }
@@ -154,6 +157,9 @@ void NewtonSolver::sum_energies(const Problem& problem) {
   if (problem.contacts != nullptr) {
     problem.contacts->add_energies(scratch_->islands, energies_);
   }
+  if (problem.joints != nullptr) {
+    joint_solver_.add_energies(joint_problem(problem), energies_);
+  }
 }
 
 /// Stored energy of rods and contacts where they were evaluated last, by island [J].
@@ -166,6 +172,9 @@ void NewtonSolver::find_stored_energies(const Problem& problem, std::vector<doub
   }
   if (problem.contacts != nullptr) {
     problem.contacts->add_stored_energies(scratch_->islands, stored);
+  }
+  if (problem.joints != nullptr) {
+    joint_solver_.add_stored_energies(joint_problem(problem), stored);
   }
 }
 
@@ -198,13 +207,40 @@ void NewtonSolver::assemble(Rods& rods, const Problem& problem) {
       add_derivatives(problem.contacts->terms(), rods, scratch_->systems, scratch_->packs,
                       static_cast<std::uint32_t>(pack));
     }
-    packs_[pack].update_residuals();
+    if (problem.joints == nullptr) {
+      packs_[pack].update_residuals();
+    }
   });
+  if (problem.joints != nullptr) {
+    joint_solver_.add_derivatives(joint_problem(problem), rods, scratch_->systems);
+    for (PackStep& pack : packs_) {
+      pack.update_residuals();
+    }
+  }
+}
+
+/// Makes the step by the bands alone that of the rods with their joints.
+void NewtonSolver::add_joints_to_step(const Problem& problem) {
+  right_sides_.assign(step_.size(), SimdBatch{});
+  for (std::size_t pack = 0; pack < packs_.size(); ++pack) {
+    const std::vector<SimdBatch>& gradient = packs_[pack].system().gradient;
+    for (std::size_t i = 0; i < gradient.size(); ++i) {
+      for (std::size_t lane = 0; lane < packs_[pack].rods().used; ++lane) {
+        right_sides_[offsets_[pack] + i][lane] = -gradient[i][lane];
+      }
+    }
+  }
+  const JointSolver::Problem joints = joint_problem(problem);
+  joint_solver_.factorise(joints, packs_);
+  joint_solver_.solve(joints, packs_, right_sides_, step_);
 }
 
 void NewtonSolver::find_newton_step(const Problem& problem) {
   for_each_pack(packs_.size(), Work::MUCH,
                 [&](std::size_t pack) { packs_[pack].find_newton_step(part(pack)); });
+  if (problem.joints != nullptr) {
+    add_joints_to_step(problem);
+  }
   // Inactive islands do not move, so that their rods need no wider travel bound.
   for_each_rod([&](std::size_t pack, std::size_t lane, std::uint32_t island) {
     if (!states_[island].is_active) {
@@ -219,8 +255,13 @@ void NewtonSolver::find_newton_step(const Problem& problem) {
     for (const IslandState& state : states_) {
       decreases_.push_back(state.predicted_decrease);
     }
+    std::optional<JointSolver::Problem> joints;
+    if (problem.joints != nullptr) {
+      joints.emplace(joint_problem(problem));
+    }
     coupling_.solve(
-        {packs_, offsets_, islands_, decreases_, problem.contacts->terms(), scratch_->places},
+        {packs_, offsets_, islands_, decreases_, problem.contacts->terms(), scratch_->places,
+         joints ? &joint_solver_ : nullptr, joints ? &*joints : nullptr},
         step_);
     update_directional_derivatives();
   }

@@ -5,6 +5,7 @@
 
 #include "fiber_proximity/sim/stepper.hpp"
 #include "src/sim/solver/coupling.hpp"
+#include "src/sim/solver/joint_solver.hpp"
 #include "src/sim/solver/line_search.hpp"
 #include "src/sim/solver/pack_step.hpp"
 #include "src/sim/solver/step_bound.hpp"
@@ -46,6 +47,8 @@ class NewtonSolver {
     const Friction* friction;         ///< null for none
     FrictionOrigins origins;          ///< where the slips of friction are measured from
     bool has_start_rates;  ///< measured from the start: only such a step resolves its impacts
+    const JointParts* joints = nullptr;                          ///< null for none
+    const std::vector<const JointCluster*>* clusters = nullptr;  ///< of joints, of these rods
   };
 
   /// Replaces the rods that it solves for. Memory is reused.
@@ -73,6 +76,9 @@ class NewtonSolver {
   /// Whether the last solve found impacts.
   bool has_impacts() const { return has_impacts_; }
 
+  /// The forces of joints on their nodes at the end of the last solve.
+  const std::vector<JointSolver::NodeForce>& joint_forces() const { return joint_solver_.forces(); }
+
  private:
   /// An island in the course of a solve.
   struct IslandState {
@@ -96,6 +102,12 @@ class NewtonSolver {
   }
   SimdBatch* part(std::size_t pack) { return step_.data() + offsets_[pack]; }
 
+  /// @param problem that has joints
+  JointSolver::Problem joint_problem(const Problem& problem) const {
+    return {*problem.joints, *problem.clusters, scratch_->islands,
+            scratch_->packs, scratch_->places,  offsets_};
+  }
+
   void evaluate_energies(Rods& rods, const Problem& problem);
   void sum_energies(const Problem& problem);
   void find_stored_energies(const Problem& problem, std::vector<double>& stored) const;
@@ -103,6 +115,7 @@ class NewtonSolver {
   void resolve_impacts(Rods& rods, const Problem& problem, const std::vector<Impact>& impacts);
   bool predict(Rods& rods, const Problem& problem);
   void assemble(Rods& rods, const Problem& problem);
+  void add_joints_to_step(const Problem& problem);
   void check_convergence(Rods& rods, const Problem& problem, std::uint32_t iteration);
   bool update_multipliers(Rods& rods, const Problem& problem);
   void update_friction(const Rods& rods, const Problem& problem);
@@ -137,6 +150,8 @@ class NewtonSolver {
   std::vector<std::vector<SimdBatch>> found_positions_;
   LineSearch line_search_;
   Coupling coupling_;
+  JointSolver joint_solver_;
+  std::vector<SimdBatch> right_sides_;  // with joints: minus the gradient
   StepBound bound_;
 };
 

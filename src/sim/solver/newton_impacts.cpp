@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <map>
+#include <tuple>
 
 #include "src/sim/solver/newton.hpp"
 
@@ -16,12 +18,15 @@ namespace {
 struct StruckNode {
   std::uint32_t rod;
   std::uint32_t node;
+  bool is_joined_only = false;  ///< with one that is of an impact
   Vector3d velocity = Vector3d::Zero();
   double spin = 0.0;
 };
 
-/// The nodes of some impacts, each once.
-std::vector<StruckNode> struck_nodes(const Rods& rods, const std::vector<Impact>& impacts) {
+/// The nodes of some impacts and those joined with them, each once.
+/// @param joints null for none
+std::vector<StruckNode> struck_nodes(const Rods& rods, const std::vector<Impact>& impacts,
+                                     const JointParts* joints) {
   std::vector<StruckNode> nodes;
   for (const Impact& impact : impacts) {
     const ContactPoints& points = impact.points;
@@ -30,8 +35,17 @@ std::vector<StruckNode> struck_nodes(const Rods& rods, const std::vector<Impact>
       nodes.insert(nodes.end(), {{points.rod_b, points.edge_b}, {points.rod_b, points.edge_b + 1}});
     }
   }
-  std::sort(nodes.begin(), nodes.end(),
-            [](const StruckNode& a, const StruckNode& b) { return a.node < b.node; });
+  for (std::size_t i = 0, struck = nodes.size(); joints != nullptr && i < struck; ++i) {
+    const std::int32_t place = rods.joints[nodes[i].node];
+    if (place >= 0) {
+      for (const PlacedNode& each : joints->places[static_cast<std::size_t>(place)]) {
+        nodes.push_back({each.rod, each.node, true});
+      }
+    }
+  }
+  std::sort(nodes.begin(), nodes.end(), [](const StruckNode& a, const StruckNode& b) {
+    return std::tie(a.node, a.is_joined_only) < std::tie(b.node, b.is_joined_only);
+  });
   const auto is_same = [](const StruckNode& a, const StruckNode& b) { return a.node == b.node; };
   nodes.erase(std::unique(nodes.begin(), nodes.end(), is_same), nodes.end());
   for (StruckNode& each : nodes) {
@@ -40,6 +54,58 @@ std::vector<StruckNode> struck_nodes(const Rods& rods, const std::vector<Impact>
   }
   return nodes;
 }
+
+/// The places of joints in impacts. A node there is as heavy as its place while impulses act on it,
+/// or as its share of that if several of the place's nodes are struck; then all of them have what
+/// these have been given.
+class StruckPlaces {
+ public:
+  /// @param nodes with all that are joined with them
+  StruckPlaces(Rods& rods, const std::vector<StruckNode>& nodes) : rods_(rods), nodes_(nodes) {
+    for (const StruckNode& each : nodes) {
+      masses_.push_back(rods.masses[each.node]);
+      if (rods.joints[each.node] >= 0) {
+        Place& place = places_[rods.joints[each.node]];
+        place.mass += rods.masses[each.node];
+        place.struck += each.is_joined_only ? 0.0 : 1.0;
+      }
+    }
+    for (const StruckNode& each : nodes) {
+      if (rods.joints[each.node] >= 0) {
+        const Place& place = places_[rods.joints[each.node]];
+        rods.masses[each.node] = place.mass / place.struck;
+      }
+    }
+  }
+
+  void finish() {
+    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+      const StruckNode& each = nodes_[i];
+      rods_.masses[each.node] = masses_[i];
+      if (rods_.joints[each.node] >= 0) {
+        Place& place = places_[rods_.joints[each.node]];
+        place.change += (rods_.velocities[each.node] - each.velocity) / place.struck;
+      }
+    }
+    for (const StruckNode& each : nodes_) {
+      if (rods_.joints[each.node] >= 0) {
+        rods_.velocities[each.node] = each.velocity + places_[rods_.joints[each.node]].change;
+      }
+    }
+  }
+
+ private:
+  struct Place {
+    double mass = 0.0;    // [kg]
+    double struck = 0.0;  // how many of its nodes
+    Vector3d change = Vector3d::Zero();
+  };
+
+  Rods& rods_;
+  const std::vector<StruckNode>& nodes_;
+  std::vector<double> masses_;  // by node of these [kg]
+  std::map<std::int32_t, Place> places_;
+};
 
 /// The largest part, up to 1, of a change of velocities and spins that adds no more kinetic energy
 /// than is allowed [J].
@@ -95,8 +161,14 @@ void NewtonSolver::resolve_impacts(Rods& rods, const Problem& problem,
     if (std::none_of(own.begin(), own.end(), [](const auto& impact) { return impact.has_begun; })) {
       continue;
     }
-    const std::vector<StruckNode> before = struck_nodes(rods, own);
-    resolve(rods, coefficient, own);
+    const std::vector<StruckNode> before = struck_nodes(rods, own, problem.joints);
+    if (problem.joints != nullptr) {
+      StruckPlaces places(rods, before);
+      resolve(rods, coefficient, own);
+      places.finish();
+    } else {
+      resolve(rods, coefficient, own);
+    }
     const double share =
         allowed_share(before, rods, std::max(0.0, max_kinetic_[island] - kinetic[island]));
     for (const StruckNode& each : before) {

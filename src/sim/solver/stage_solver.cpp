@@ -26,15 +26,34 @@ void add_packs(const std::vector<std::uint32_t>& rods,
 
 }  // namespace
 
-StageSolver::StageSolver(const Rods& rods, const StepperOptions& options, Contacts* contacts)
-    : options_(options), contacts_(contacts), arena_(arena_concurrency(options.threads)) {
+StageSolver::StageSolver(const Rods& rods, const StepperOptions& options, Contacts* contacts,
+                         Joints* joints)
+    : options_(options),
+      contacts_(contacts),
+      joints_(joints),
+      arena_(arena_concurrency(options.threads)) {
+  if (joints_ != nullptr) {
+    joint_clusters_ = joint_clusters(joints_->parts(), rods.count());
+  }
   scratch_.resize(rods);
   group_of_.resize(rods.count());
   for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
     travel_bound_.by_rod.push_back(StepBound::min_travel * rods.radii[rod]);
   }
-  islands_.reset(rods.count());
+  reset_islands(rods);
   make_groups(rods);
+}
+
+/// Rods that are joined are of one island.
+void StageSolver::reset_islands(const Rods& rods) {
+  islands_.reset(rods.count());
+  if (joints_ != nullptr) {
+    for (const std::vector<PlacedNode>& place : joints_->parts().places) {
+      for (const PlacedNode& each : place) {
+        islands_.join(place.front().rod, each.rod);
+      }
+    }
+  }
 }
 
 void StageSolver::solve(Rods& rods, const Effects& effects, const TimeStep& stage,
@@ -53,6 +72,9 @@ void StageSolver::solve(Rods& rods, const Effects& effects, const TimeStep& stag
   arena_.execute([&] {
     for (const auto& effect : effects) {
       effect->begin_step(rods, stage);
+    }
+    if (joints_ != nullptr) {
+      joints_->begin_step(rods, stage);
     }
     for (Group& group : groups_) {
       group.is_solved = false;
@@ -98,7 +120,7 @@ void StageSolver::find_contacts(Rods& rods) {
     contacts_->sources()[source]->find(rods, travel_bound_, found_by_[source]);
   });
   rods.positions.swap(start_.positions);
-  islands_.reset(rods.count());
+  reset_islands(rods);
   for (const ContactSet& found : found_by_) {
     for (const EdgePair& pair : found.pairs) {
       islands_.join(pair.rod_a, pair.rod_b);
@@ -155,6 +177,10 @@ void StageSolver::make_groups(const Rods& rods) {
         group_of_[rod] = index;
       }
     }
+    groups_[index].joints.clear();
+  }
+  for (const JointCluster& cluster : joint_clusters_) {
+    groups_[group_of_[cluster.rod(joints_->parts())]].joints.push_back(&cluster);
   }
 }
 
@@ -201,10 +227,13 @@ void StageSolver::solve_group(Rods& rods, const Effects& effects, double step, G
   const Friction* const friction = bounds ? contacts_->friction() : nullptr;
   const std::optional<double> gain =
       solver->solve(rods, {effects, options_, step, bounds ? &group.contacts : nullptr,
-                           travel_bound, friction, origins_, has_start_rates_});
+                           travel_bound, friction, origins_, has_start_rates_,
+                           group.joints.empty() ? nullptr : &joints_->parts(), &group.joints});
   group.is_solved = gain.has_value();
   group.stored_gain = gain.value_or(0.0);
   group.has_impacts = solver->has_impacts();
+  group.joint_forces =
+      group.joints.empty() ? std::vector<JointSolver::NodeForce>{} : solver->joint_forces();
   group.reports = solver->reports();
   group.needed_travel = solver->step_bound().needed();
   solvers_.push(std::move(solver));
@@ -284,6 +313,9 @@ void StageSolver::add_forces(const Rods& rods, const Effects& effects, RodForces
   for (const Group& group : groups_) {
     group.contacts.add_forces(rods, forces.contacts);
   }
+  if (joints_ != nullptr) {
+    add_joint_forces(rods, forces);
+  }
 }
 
 double StageSolver::stored_energy(Rods& rods, const Effects& effects) {
@@ -298,6 +330,9 @@ double StageSolver::stored_energy(Rods& rods, const Effects& effects) {
     group.contacts.update_distances(rods);
     group.contacts.evaluate_energies(rods);
     energy += group.contacts.stored_energy();
+  }
+  if (joints_ != nullptr) {
+    energy += joints_->stored_energy(rods);
   }
   return energy;
 }

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <vector>
 
+#include "fiber_proximity/sim/joints.hpp"
 #include "src/sim/solver/newton.hpp"
 
 namespace fiber {
@@ -46,7 +47,8 @@ class Islands {
 class StageSolver {
  public:
   /// @param contacts null for none; must outlive this
-  StageSolver(const Rods& rods, const StepperOptions& options, Contacts* contacts);
+  /// @param joints   null for none; must outlive this
+  StageSolver(const Rods& rods, const StepperOptions& options, Contacts* contacts, Joints* joints);
 
   /// @param rods      where the solve starts, free of overlaps; moved to the end
   /// @param reference where rates are measured from; null for where the solve starts
@@ -77,6 +79,8 @@ class StageSolver {
     std::vector<std::vector<std::uint32_t>> packs;
     std::uint32_t islands = 0;
     ContactSet contacts;
+    std::vector<const JointCluster*> joints;
+    std::vector<JointSolver::NodeForce> joint_forces;
     std::vector<IslandReport> reports;
     double stored_gain = 0.0;  // of energy in the solve [J]
     std::vector<std::pair<std::uint32_t, double>> needed_travel;
@@ -84,6 +88,8 @@ class StageSolver {
     bool is_solved = false;
   };
 
+  void add_joint_forces(const Rods& rods, RodForces& forces) const;
+  void reset_islands(const Rods& rods);
   void find_contacts(Rods& rods);
   void make_groups(const Rods& rods);
   void distribute_contacts();
@@ -97,6 +103,8 @@ class StageSolver {
 
   StepperOptions options_;
   Contacts* contacts_;
+  Joints* joints_;
+  std::vector<JointCluster> joint_clusters_;
   tbb::task_arena arena_;
   Islands islands_;
   std::vector<Group> groups_;
