@@ -16,6 +16,7 @@ TEST_F(SimSceneTest, SectionsHaveMaterialsOfTheirOwn) {
   const SimScene scene = read(
       with_sections("{to: 0.25, material: {density: 1600}}, {from: 0.5, material: silicone_tube}"));
   const Rods& rods = scene.stepper->rods();
+  EXPECT_TRUE(bare.stepper->rods().section_lengths.empty()) << "it names none";
   const RodSection own = bare.stepper->rods().sections[0];
   const RodSection silicone = solid_round_section(material_preset("silicone_tube"), 0.01);
   EXPECT_EQ(rods.sections[0].bending_stiffness, own.bending_stiffness);
