@@ -13,6 +13,8 @@ add_library(fiber_proximity_sim SHARED
   src/sim/effects/bend.cpp
   src/sim/effects/contacts.cpp
   src/sim/effects/damping.cpp
+  src/sim/effects/drag.cpp
+  src/sim/effects/gravity.cpp
   src/sim/effects/loads.cpp
   src/sim/effects/natural_bend.cpp
   src/sim/effects/section_damping.cpp
@@ -41,17 +43,22 @@ fiber_proximity_component(sim fiber_proximity_sim)
 
 # The files of scenes: compiled apart, as nothing in them takes time.
 add_library(sim_scene OBJECT
+  src/sim/scene/effect_keys.cpp
   src/sim/scene/effects.cpp
   src/sim/scene/fibers.cpp
   src/sim/scene/force_file.cpp
   src/sim/scene/holds.cpp
   src/sim/scene/keys.cpp
+  src/sim/scene/loads.cpp
+  src/sim/scene/named_nodes.cpp
+  src/sim/scene/natural_curvature.cpp
   src/sim/scene/reach.cpp
   src/sim/scene/real_time.cpp
   src/sim/scene/report.cpp
   src/sim/scene/resolution.cpp
   src/sim/scene/scene.cpp
   src/sim/scene/shapes.cpp
+  src/sim/scene/times.cpp
 )
 set_target_properties(sim_scene PROPERTIES POSITION_INDEPENDENT_CODE ON)
 target_link_libraries(sim_scene PRIVATE Eigen3::Eigen yaml-cpp fiber_proximity_options)

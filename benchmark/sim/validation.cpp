@@ -6,6 +6,7 @@
 #include "validation/sim/elastica.hpp"
 #include "validation/sim/friction_scenes.hpp"
 #include "validation/sim/instability.hpp"
+#include "validation/sim/loads.hpp"
 #include "validation/sim/motion.hpp"
 #include "validation/sim/statics.hpp"
 
@@ -16,6 +17,7 @@ using Report = std::function<void(const Validation&)>;
 
 constexpr int segments = 50;
 constexpr double two_percent = 0.02;  // of where a rod slides and a shape becomes unstable
+constexpr double half_percent = 0.005;
 constexpr double free_fall_part = 1e-11;
 
 std::string text(const std::string& what, double value) {
@@ -65,6 +67,35 @@ void validate_catenaries(const Report& report) {
     const std::string scene = text("length / span", length);
     report({"catenary", scene, "sag / span", segments, theory.sag, chain.sag});
     report({"catenary", scene, "pull / weight per span", segments, theory.pull, chain.pull});
+  }
+}
+
+void validate_loads(const Report& report) {
+  for (const double turns : {0.25, 0.5, 1.0}) {
+    const double moment = 2.0 * M_PI * turns;
+    const CantileverTip theory = exact_arc_tip(moment);
+    const CantileverTip tip = simulated_arc_tip(segments, moment);
+    report({"cantilever, end moment", text("turn [1]", turns), "way of the tip / L", segments,
+            std::hypot(theory.drop, theory.reach - 1.0), std::hypot(tip.drop, tip.reach - 1.0),
+            half_percent});
+  }
+  for (const double place : {0.5, 0.2}) {
+    const HangingChain theory = exact_loaded_catenary(1.2, 1.0, place);
+    const HangingChain chain = simulated_loaded_catenary(1.2, 1.0, place, segments);
+    const std::string scene = text("weight of 1, at", place);
+    report({"catenary with a weight", scene, "sag / span", segments, theory.sag, chain.sag,
+            half_percent});
+    report({"catenary with a weight", scene, "pull / weight per span", segments, theory.pull,
+            chain.pull, half_percent});
+  }
+  for (const double degrees : {10.0, 45.0}) {
+    const double angle = degrees * M_PI / 180.0;
+    constexpr double share = 0.01;
+    constexpr double step = 0.005;
+    constexpr double thousandth = 0.001;
+    report({"pendulum with a weight", text("amplitude [°]", degrees),
+            "period [s]", segments, exact_weight_pendulum_period(angle, share),
+            simulated_weight_pendulum_period(segments, angle, share, step), thousandth});
   }
 }
 
@@ -160,6 +191,7 @@ void validate_friction(const Report& report) {
 void validate_simulation(const Report& report) {
   validate_cantilevers(report);
   validate_catenaries(report);
+  validate_loads(report);
   validate_motion(report);
   validate_instability(report);
   validate_friction(report);

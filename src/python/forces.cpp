@@ -15,6 +15,7 @@ struct Forces : OnlyShared {
   py::array twisting_moments;
   py::array contacts;
   py::array holds;
+  py::array loads;
 };
 
 py::dtype contact_force_dtype() {
@@ -46,12 +47,26 @@ py::dtype hold_force_dtype() {
                     sizeof(Force));
 }
 
+py::dtype load_force_dtype() {
+  using Force = RodForces::LoadForce;
+  const Force force{};
+  const auto at = [&](auto member) { return offset_of(force, member); };
+  return make_dtype({{"load", "u4", at(&Force::load)},
+                     {"fiber", "u4", at(&Force::rod)},
+                     {"node", "u4", at(&Force::node)},
+                     {"point", "(3,)f8", at(&Force::point)},
+                     {"force", "(3,)f8", at(&Force::force)},
+                     {"moment", "(3,)f8", at(&Force::moment)}},
+                    sizeof(Force));
+}
+
 Forces::Forces(RodForces& forces)
     : tensions(to_array(forces.tensions)),
       bending_moments(to_array(forces.bending_moments)),
       twisting_moments(to_array(forces.twisting_moments)),
       contacts(to_array(contact_force_dtype(), forces.contacts)),
-      holds(to_array(hold_force_dtype(), forces.holds)) {}
+      holds(to_array(hold_force_dtype(), forces.holds)),
+      loads(to_array(load_force_dtype(), forces.loads)) {}
 
 }  // namespace
 
@@ -77,7 +92,11 @@ void bind_forces(py::module& module) {
                     "fibre.")
       .def_readonly("holds", &Forces::holds,
                     "(m,) with the fields fiber, node, point [m], force [N] and moment [N m] on "
-                    "the fibre, lag [m] behind where the hold pulls it, max_force [N].");
+                    "the fibre, lag [m] behind where the hold pulls it, max_force [N].")
+      .def_readonly("loads", &Forces::loads,
+                    "(m,) with the fields load (counted from 0, those of a repeated fibre one by "
+                    "one), fiber, node, point [m], force [N] on the node and moment [N m] on the "
+                    "segment after it: the share that the node has in the load.");
 }
 
 }  // namespace fiber::python

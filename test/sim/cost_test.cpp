@@ -10,6 +10,7 @@
 #include <ostream>
 
 #include "fiber_proximity/sim/effects.hpp"
+#include "fiber_proximity/sim/loads.hpp"
 #include "validation/sim/contact_scenes.hpp"
 
 namespace {
@@ -130,6 +131,14 @@ std::vector<NamedEffect> effects_with_state() {
       {"inextensible", base_and([](Rods& rods) { return std::make_unique<Inextensible>(rods); })},
       {"attachment",
        base_and([](Rods& rods) { return hold(rods, {pin(0, rods.positions.front())}); })},
+      {"load", base_and([](Rods& rods) {
+         auto loads = std::make_unique<Loads>();
+         Loads::Load load;
+         load.part = RodPart{0.1, 0.4};
+         load.force = TimeTable<Vector3d>({{0.0, {0.0, 0.0, 0.0}}, {1.0, {0.0, 0.1, 0.0}}}, true);
+         loads->add(rods, load);
+         return loads;
+       })},
   };
 }
 

@@ -10,9 +10,11 @@ namespace fiber {
 
 using Eigen::Vector3d;
 
+const Vector3d pendulum_gravity(0.0, 0.0, -9.81);
+
 namespace {
 
-const Vector3d gravity(0.0, 0.0, -9.81);
+const Vector3d& gravity = pendulum_gravity;
 
 /// Crossings of zero by a number that swings, to between the steps.
 class Zeros {
@@ -103,21 +105,25 @@ double point_pendulum_period() { return 2.0 * M_PI * std::sqrt(1.0 / gravity.nor
 
 double rod_pendulum_period() { return std::sqrt(2.0 / 3.0) * point_pendulum_period(); }
 
-double simulated_pendulum_period(int segments, double angle, double step) {
-  Rods rods;
-  rods.add(straight({0, 0, 0}, {std::sin(angle), 0, -std::cos(angle)}, segments), 0.01,
-           {1e5, 1e3, 1.0, 1.0, 1e-4});
-  auto pinned = hold(rods, {pin(0, Vector3d::Zero())});
-  Stepper stepper(rods,
-                  effects(std::make_unique<Gravity>(gravity), std::make_unique<Stretch>(),
-                          std::make_unique<Bend>(), std::move(pinned)),
-                  precise(Integrator::BDF2));
+double period_of_swing(const Rods& rods, Effects all, double step) {
+  Stepper stepper(rods, std::move(all), precise(Integrator::BDF2));
   Zeros zeros;
   while (zeros.count() < 5) {
     stepper.step(step);
     zeros.add(stepper.time(), stepper.rods().positions.back().x());
   }
   return zeros.period();
+}
+
+double simulated_pendulum_period(int segments, double angle, double step) {
+  Rods rods;
+  rods.add(straight({0, 0, 0}, {std::sin(angle), 0, -std::cos(angle)}, segments), 0.01,
+           {1e5, 1e3, 1.0, 1.0, 1e-4});
+  auto pinned = hold(rods, {pin(0, Vector3d::Zero())});
+  return period_of_swing(rods,
+                         effects(std::make_unique<Gravity>(gravity), std::make_unique<Stretch>(),
+                                 std::make_unique<Bend>(), std::move(pinned)),
+                         step);
 }
 
 Rods fallen_rod(Integrator integrator, double step, int steps) {

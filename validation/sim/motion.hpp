@@ -25,6 +25,12 @@ double exact_pendulum_ratio(double amplitude);
 double point_pendulum_period();
 double rod_pendulum_period();
 
+/// The gravity of all pendulums here [m/s²].
+extern const Eigen::Vector3d pendulum_gravity;
+
+/// The period with which the last node of rods that are let go swings along x, with BDF2 [s].
+double period_of_swing(const Rods& rods, Effects all, double step);
+
 /// The period of a rod of length 1 m that is let go at an angle from the vertical, with BDF2 [s].
 /// One segment has its mass at its ends, many have it all along.
 /// @param step [s]

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "fiber_proximity/sim/loads.hpp"
 #include "validation/sim/rod_scene.hpp"
 #include "validation/sim/root.hpp"
 
@@ -20,11 +21,15 @@ CantileverTip simulated_tip(int segments, double load, double spread) {
   // Where the rod weighs nothing, its masses must be there all the same: far less than the load.
   const double mass = spread > 0.0 ? spread : 1e-9;
   rods.add(straight({0, 0, 0}, {1, 0, 0}, segments), 0.01, {1e7, 1.0, 1.0, mass, 1e-6});
-  rods.masses.back() += load;
+  Loads::Load end_force;
+  end_force.node = rods.node_count(0) - 1;
+  end_force.force = TimeTable<Vector3d>(load * down);
+  auto loads = std::make_unique<Loads>();
+  loads->add(rods, end_force);
   auto clamped = hold(rods, {clamp(0, {Vector3d::Zero(), Vector3d::UnitX(), Vector3d::UnitY()})});
   Stepper stepper(rods,
                   effects(std::make_unique<Gravity>(down), std::make_unique<Stretch>(),
-                          std::make_unique<Bend>(), std::move(clamped)),
+                          std::make_unique<Bend>(), std::move(clamped), std::move(loads)),
                   precise());
   settle(stepper);
   const Vector3d& tip = stepper.rods().positions.back();

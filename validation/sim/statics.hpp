@@ -5,7 +5,7 @@
 namespace fiber {
 
 /// The tip of a rod of length and bending stiffness 1, level from a clamp, where it comes to rest.
-/// @param load   weight that hangs from the tip
+/// @param load   force on the tip, downwards
 /// @param spread weight of the rod
 CantileverTip simulated_tip(int segments, double load, double spread);
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "fiber_proximity/sim/effect.hpp"
+#include "fiber_proximity/sim/time_table.hpp"
 
 namespace fiber {
 
@@ -196,10 +197,24 @@ class Gravity : public LaneEffect {
   /// @throws std::invalid_argument if it is not finite
   explicit Gravity(const Eigen::Vector3d& acceleration);
 
+ protected:
+  Eigen::Vector3d acceleration_;
+
  private:
   Kernels kernels() const override;
+};
 
-  Eigen::Vector3d acceleration_;
+/// A uniform acceleration that changes in time. In each step it is that of the step's end.
+class GravityInTime : public Gravity {
+ public:
+  /// @param acceleration [m/s²]
+  /// @throws std::invalid_argument if an entry is not finite
+  explicit GravityInTime(TimeTable<Eigen::Vector3d> acceleration);
+
+  void begin_step(Rods& rods, const TimeStep& step) override;
+
+ private:
+  TimeTable<Eigen::Vector3d> table_;
 };
 
 /// Wind: a mean velocity and a gust that swells and ebbs as it passes. No random numbers, so that

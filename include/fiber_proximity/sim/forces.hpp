@@ -44,6 +44,16 @@ struct RodForces {
     Eigen::Vector3d moment;  ///< about the place, of welds [N m]
   };
 
+  /// The share of a load that acts at a node and on the edge after it.
+  struct LoadForce {
+    std::uint32_t load;  ///< as Loads::add() counts them
+    std::uint32_t rod;
+    std::uint32_t node;      ///< from the rod's first one
+    Eigen::Vector3d point;   ///< of the node [m]
+    Eigen::Vector3d force;   ///< [N]
+    Eigen::Vector3d moment;  ///< on the edge after the node [N m]
+  };
+
   /// The force, by edge, with which the part of the rod after the edge pulls at the part before it,
   /// along the edge; negative under pressure [N].
   std::vector<double> tensions;
@@ -58,6 +68,7 @@ struct RodForces {
   std::vector<ContactForce> contacts;
   std::vector<HoldForce> holds;
   std::vector<JointForce> joints;  ///< those of a joint add up to 0
+  std::vector<LoadForce> loads;
 };
 
 }  // namespace fiber

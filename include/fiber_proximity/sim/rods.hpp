@@ -40,6 +40,12 @@ struct RodSection {
 ///         positive and finite, or a bending share out of its range
 RodSection solid_round_section(const RodMaterial& material, double radius);
 
+/// A part of a rod, by the lengths at rest from the rod's first node to its ends [m].
+struct RodPart {
+  double from = 0.0;
+  double to = 0.0;
+};
+
 /// The positions of rods, and their rates.
 struct RodState {
   std::vector<Eigen::Vector3d> positions;   ///< of nodes [m]

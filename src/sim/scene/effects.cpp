@@ -1,4 +1,4 @@
-// How effects are read and made. Which there are and their options: keys.cpp.
+// How effects are read and made. Which there are and their options: effect_keys.cpp.
 
 #include "fiber_proximity/sim/effects.hpp"
 
@@ -8,9 +8,9 @@
 #include <stdexcept>
 
 #include "fiber_proximity/sim/contacts.hpp"
-#include "src/sim/effects/natural_bend.hpp"
 #include "src/sim/scene/keys.hpp"
 #include "src/sim/scene/parts.hpp"
+#include "src/sim/scene/times.hpp"
 #include "src/text/join.hpp"
 #include "src/text/quote.hpp"
 #include "src/text/with_context.hpp"
@@ -38,21 +38,36 @@ const std::map<std::string, EffectOptions>& known_effects() {
   return effects;
 }
 
+/// The keys of an effect that are not options with a number.
+std::set<std::string> other_keys(const std::string& effect) {
+  std::set<std::string> keys;
+  for (const SceneKey& key : keys_of_scene_map(effect)) {
+    if (key.numbers.empty()) {
+      keys.insert(key.name);
+    }
+  }
+  return keys;
+}
+
 /// Reads the options whose names begin with a prefix; the part of a name in front of a dot is a
 /// map.
-void read_options(const YamlField& field, const std::string& prefix, EffectOptions& options) {
+/// @param others keys that are read elsewhere
+void read_options(const YamlField& field, const std::string& prefix,
+                  const std::set<std::string>& others, EffectOptions& options) {
   std::set<std::string> keys;
   for (const auto& [name, value] : options) {
     if (name.rfind(prefix, 0) == 0) {
       keys.insert(name.substr(prefix.size(), name.find('.', prefix.size()) - prefix.size()));
     }
   }
-  field.require_map({keys.begin(), keys.end()});
+  std::vector<std::string> allowed(keys.begin(), keys.end());
+  allowed.insert(allowed.end(), others.begin(), others.end());
+  field.require_map(allowed);
   for (const std::string& key : keys) {
     const auto given = field.find(key);
     const auto option = options.find(prefix + key);
     if (given && option == options.end()) {
-      read_options(*given, prefix + key + ".", options);
+      read_options(*given, prefix + key + ".", {}, options);
     } else if (given) {
       const std::size_t count = option->second.size();
       option->second = count == 1 ? std::vector{given->number()} : given->numbers(count);
@@ -97,6 +112,23 @@ Eigen::Vector3d vector_of(const EffectOptions& options, const char* name) {
 
 Gravity make_gravity(const EffectOptions& options) {
   return Gravity(vector_of(options, "acceleration"));
+}
+
+/// @returns none where the acceleration does not change
+std::optional<TimeTable<Eigen::Vector3d>> read_gravity_table(const YamlField& field,
+                                                             const EffectOptions& options) {
+  const auto entries =
+      read_table<Eigen::Vector3d>(field, {"acceleration"}, vector_of(options, "acceleration"),
+                                  [](const YamlField& entry, Eigen::Vector3d& acceleration) {
+                                    entry.read("acceleration", acceleration);
+                                    if (!acceleration.allFinite()) {
+                                      entry.get("acceleration").refuse("finite");
+                                    }
+                                  });
+  if (!field.find("table")) {
+    return std::nullopt;
+  }
+  return TimeTable<Eigen::Vector3d>(entries, field.find("period").has_value());
 }
 
 template <bool is_beside_bend>
@@ -158,6 +190,15 @@ std::shared_ptr<Attachment> make_attachment(const SimDescription& description, c
   return attachment;
 }
 
+/// Turns the cross-sections of rods with twist as their fibres turn to begin with.
+void set_spins(const SimDescription& description, Rods& rods) {
+  for (std::uint32_t rod = 0; rod < rods.count() && !rods.spins.empty(); ++rod) {
+    for (std::uint32_t i = rods.first(rod); i + 1 < rods.end(rod); ++i) {
+      rods.spins[i] = description.fibers[rod].angular_velocity.dot(rods.start_tangents[i]);
+    }
+  }
+}
+
 /// Null if the scene names no contact effect.
 std::unique_ptr<Contacts> make_contacts(const SimDescription& description, SimScene& scene) {
   std::vector<std::unique_ptr<ContactSource>> sources;
@@ -188,69 +229,9 @@ std::unique_ptr<Contacts> make_contacts(const SimDescription& description, SimSc
                          : std::make_unique<Contacts>(std::move(sources), std::move(friction));
 }
 
-double read_curvature(const YamlField& field) {
-  constexpr const char* allowed = "at least 0 and finite, or from_shape";
-  double curvature = 0.0;
-  try {
-    curvature = field.number();
-  } catch (const std::invalid_argument&) {
-    field.refuse(allowed);
-  }
-  if (!(std::isfinite(curvature) && curvature >= 0.0)) {
-    field.refuse(allowed);
-  }
-  return curvature;
-}
-
-SimCurvature read_natural_curvature(const YamlField& bend, bool has_twist) {
-  bend.require_map(key_names("bend"));
-  const auto given = bend.find("natural_curvature");
-  const auto towards = bend.find("towards");
-  SimCurvature read;
-  read.is_from_shape = given && given->is_text() && given->text() == "from_shape";
-  if (given && !read.is_from_shape) {
-    read.curvature = read_curvature(*given);
-  }
-  if (towards) {
-    if (!has_twist) {
-      towards->refuse(
-          "absent where there is no twist: cross-sections that turn freely have no side");
-    }
-    if (read.is_from_shape) {
-      towards->refuse("absent where the natural curvature is from_shape");
-    }
-    if (!given) {
-      towards->refuse("absent where there is no natural_curvature");
-    }
-    read.towards = towards->vector();
-    read.towards_statement = towards->statement();
-  }
-  return read;
-}
-
-void set_natural_curvature(const SimDescription& scene, Rods& rods) {
-  const SimCurvature& natural = scene.natural_curvature;
-  if (natural.is_from_shape) {
-    set_natural_shape(rods);
-  } else if (natural.towards) {
-    for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
-      try {
-        set_natural_arc(rods, rod, natural.curvature, *natural.towards);
-      } catch (const std::invalid_argument&) {
-        throw std::invalid_argument(natural.towards_statement +
-                                    ", it must be finite and a direction across the fibre's first "
-                                    "edge (fibre " +
-                                    quote(scene.fiber_names[rod]) + ")");
-      }
-    }
-  } else if (natural.curvature > 0.0) {
-    rods.natural_curvatures.assign(rods.positions.size(), natural.curvature);
-  }
-}
-
 }  // namespace
 
-std::optional<YamlField> read_effects(const YamlField& list, SimDescription& scene) {
+EffectLists read_effects(const YamlField& list, SimDescription& scene) {
   std::map<std::string, std::optional<YamlField>> fields;
   for (const YamlField& item : list.items()) {
     auto [effect, options] = read_entry(item);
@@ -258,8 +239,12 @@ std::optional<YamlField> read_effects(const YamlField& list, SimDescription& sce
       throw std::invalid_argument(item.place() + ": the effect " + quote(effect.name) +
                                   " is there twice");
     }
-    if (options && effect.name != "bend" && effect.name != "attachment") {
-      read_options(*options, "", effect.options);
+    const bool is_list = effect.name == "attachment" || effect.name == "load";
+    if (options && effect.name != "bend" && !is_list) {
+      read_options(*options, "", other_keys(effect.name), effect.options);
+    }
+    if (options && effect.name == "gravity") {
+      scene.gravity_in_time = read_gravity_table(*options, effect.options);
     }
     scene.effect_names.push_back(effect.name);
     scene.effects.push_back(std::move(effect));
@@ -281,10 +266,17 @@ std::optional<YamlField> read_effects(const YamlField& list, SimDescription& sce
   if (fields["bend"]) {
     scene.natural_curvature = read_natural_curvature(*fields["bend"], scene.has_effect("twist"));
   }
-  return fields["attachment"];
+  return {fields["attachment"], fields["load"]};
 }
 
 double gravity_of(const SimDescription& scene) {
+  if (scene.gravity_in_time) {
+    double largest = 0.0;
+    for (const auto& entry : scene.gravity_in_time->entries()) {
+      largest = std::max(largest, entry.value.norm());
+    }
+    return largest;
+  }
   const SimEffect* gravity = scene.find_effect("gravity");
   return gravity == nullptr ? 0.0 : vector_of(gravity->options, "acceleration").norm();
 }
@@ -299,12 +291,20 @@ MadeEffects make_effects(const SimDescription& description, Rods& rods, SimScene
   const auto add_fixed = [&](const char* name, const auto& make_of) {
     add(make(description, name, make_of));
   };
-  add(make_adjustable(description, "gravity", make_gravity, scene));
+  if (description.gravity_in_time) {
+    add_fixed("gravity", [&](const auto&) {
+      return std::make_unique<GravityInTime>(*description.gravity_in_time);
+    });
+  } else {
+    add(make_adjustable(description, "gravity", make_gravity, scene));
+  }
   add_fixed("stretch", [](const auto&) { return std::make_unique<Stretch>(); });
   add_fixed("inextensible", [&](const auto&) { return std::make_unique<Inextensible>(rods); });
   add_fixed("bend", [](const auto&) { return std::make_unique<Bend>(); });
   add_fixed("twist", [&](const auto&) { return std::make_unique<Twist>(rods); });
-  set_natural_curvature(description, rods);  // after twist, which gives rods their frames
+  // After twist, which gives rods their frames.
+  set_spins(description, rods);
+  set_natural_curvature(description, rods);
   const SimCurvature& natural = description.natural_curvature;
   const bool bends_to_be_straight = description.has_effect("bend") && natural.curvature == 0.0 &&
                                     !natural.is_from_shape && !description.has_effect("plasticity");
@@ -318,6 +318,7 @@ MadeEffects make_effects(const SimDescription& description, Rods& rods, SimScene
   });
   // After twist, which gives rods the directors that clamps hold.
   add(make_attachment(description, rods, scene));
+  add(make_loads(description, rods, scene));
   made.contacts = make_contacts(description, scene);
   return made;
 }

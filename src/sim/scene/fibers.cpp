@@ -1,6 +1,7 @@
 #include "src/sim/scene/fibers.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -41,10 +42,15 @@ RodMaterial read_material(const YamlField& field, std::string& defaults) {
   return material;
 }
 
-void measure(FiberEntry& fiber) {
-  for (std::size_t i = 1; i < fiber.curve.size(); ++i) {
-    fiber.length += (fiber.curve[i] - fiber.curve[i - 1]).norm();
+double length_of(const std::vector<Eigen::Vector3d>& curve) {
+  double length = 0.0;
+  for (std::size_t i = 1; i < curve.size(); ++i) {
+    length += (curve[i] - curve[i - 1]).norm();
   }
+  return length;
+}
+
+void measure_turning(FiberEntry& fiber) {
   const std::vector<Eigen::Vector3d> points = resample(fiber.curve, fine_segments);
   for (std::size_t i = 2; i < points.size(); ++i) {
     const Eigen::Vector3d before = points[i - 1] - points[i - 2];
@@ -53,14 +59,83 @@ void measure(FiberEntry& fiber) {
   }
 }
 
+std::string speed_limit() {
+  return "at most " + std::to_string(static_cast<int>(max_initial_speed)) + " m/s";
+}
+
+Eigen::Vector3d read_velocity(const YamlField& field) {
+  const Eigen::Vector3d velocity = field.vector();
+  if (!(velocity.norm() <= max_initial_speed)) {
+    field.refuse("finite and " + speed_limit());
+  }
+  return velocity;
+}
+
+void read_velocities(const YamlField& entry, FiberEntry& fiber) {
+  const auto velocity = entry.find("velocity");
+  const auto list = entry.find("velocities");
+  if (velocity) {
+    fiber.velocities = {read_velocity(*velocity)};
+  }
+  if (list) {
+    if (velocity) {
+      list->refuse("absent where there is a velocity");
+    }
+    for (const YamlField& each : list->items()) {
+      fiber.velocities.push_back(read_velocity(each));
+    }
+    if (fiber.velocities.size() < 2) {
+      list->refuse("a list of at least two velocities");
+    }
+  }
+  if (const auto angular = entry.find("angular_velocity")) {
+    fiber.angular_velocity = angular->vector();
+    if (!fiber.angular_velocity.allFinite()) {
+      angular->refuse("finite");
+    }
+  }
+}
+
+/// Gives the last rod, which is that of an entry, its velocities to begin with.
+void set_velocities(const FiberEntry& entry, Rods& rods) {
+  const std::uint32_t first = rods.first(rods.count() - 1);
+  const std::uint32_t last = rods.end(rods.count() - 1) - 1;
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();
+  double mass = 0.0;
+  for (std::uint32_t i = first; i <= last; ++i) {
+    center += rods.masses[i] * rods.positions[i];
+    mass += rods.masses[i];
+  }
+  center /= mass;
+  for (std::uint32_t i = first; i <= last; ++i) {
+    Eigen::Vector3d velocity = entry.angular_velocity.cross(rods.positions[i] - center);
+    if (!entry.velocities.empty()) {
+      const double place = static_cast<double>(i - first) / (last - first) *
+                           static_cast<double>(entry.velocities.size() - 1);
+      const auto before = static_cast<std::size_t>(place);
+      const std::size_t after = std::min(before + 1, entry.velocities.size() - 1);
+      const double share = place - static_cast<double>(before);
+      velocity += (1.0 - share) * entry.velocities[before] + share * entry.velocities[after];
+    }
+    if (!(velocity.norm() <= max_initial_speed)) {
+      throw std::invalid_argument("point " + std::to_string(i - first) + " begins with " +
+                                  std::to_string(velocity.norm()) + " m/s, it must be " +
+                                  speed_limit());
+    }
+    rods.velocities[i] = velocity;
+  }
+}
+
 void read_body(const YamlField& entry, bool chooses_segments, FiberEntry& fiber) {
   if (!chooses_segments || entry.find("segments")) {
     fiber.segments = entry.get("segments").integer(1, max_segments);
   }
   fiber.curve = read_shape(entry.get("shape"));
+  fiber.length = length_of(fiber.curve);
   if (chooses_segments) {
-    measure(fiber);
+    measure_turning(fiber);
   }
+  read_velocities(entry, fiber);
   fiber.radius = entry.get("radius").number();
   const YamlField given = entry.get("material");
   const RodMaterial material = read_material(given, fiber.material_defaults);
@@ -98,9 +173,12 @@ void add(const FiberEntry& entry, std::int64_t segments, SimDescription& scene) 
       point += static_cast<double>(i) * entry.offset;
     }
     with_fiber_name(entry.name, [&] {
-      with_context(entry.place, [&] { scene.rods.add(moved, entry.radius, entry.section); });
+      with_context(entry.place, [&] {
+        scene.rods.add(moved, entry.radius, entry.section);
+        set_velocities(entry, scene.rods);
+      });
     });
-    scene.fibers.push_back({name, entry.name, entry.place});
+    scene.fibers.push_back({name, entry.name, entry.place, entry.length, entry.angular_velocity});
     scene.fiber_names.push_back(name);
   }
 }

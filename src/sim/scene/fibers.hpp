@@ -23,9 +23,12 @@ struct FiberEntry {
   std::string material_defaults;  ///< values that its material leaves open; empty for none
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< of each from the one before [m]
 
-  // Only known where segments are chosen.
   double length = 0.0;   ///< of the curve [m]
-  double turning = 0.0;  ///< of the curve in all [rad]
+  double turning = 0.0;  ///< of the curve in all [rad]; only known where segments are chosen
+
+  /// To begin with, at equal distances along the fibre, in between straight lines [m/s]; empty: 0.
+  std::vector<Eigen::Vector3d> velocities;
+  Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();  ///< to begin with [rad/s]
 
   /// The segments given, or chosen for an accuracy.
   /// @throws std::invalid_argument naming the fibre, for more segments than a scene may have

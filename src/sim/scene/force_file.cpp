@@ -55,6 +55,9 @@ void ForceWriter::write(std::int64_t frame, const Rods& rods, const RodForces& f
   for (const RodForces::HoldForce& hold : forces.holds) {
     add_row("hold", hold.rod, hold.node, hold.force, hold.moment);
   }
+  for (const RodForces::LoadForce& load : forces.loads) {
+    add_row("load", load.rod, load.node, load.force, load.moment);
+  }
   file_.write(rows);
 }
 

@@ -17,6 +17,7 @@ namespace fiber {
 /// - bending: of node `index`; the moment of the part after it
 /// - normal, friction: of a contact, on edge `index`; those of two rods have a row for each of them
 /// - hold: what a hold exerts on node `index`
+/// - load: the share of a load at node `index`, its moment on the edge after it
 ///
 /// All numbers read back as the same.
 class ForceWriter {

@@ -2,12 +2,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
 
 #include "src/geometry/smallest_rotation.hpp"
 #include "src/sim/scene/keys.hpp"
+#include "src/sim/scene/named_nodes.hpp"
 #include "src/sim/scene/parts.hpp"
-#include "src/text/join.hpp"
+#include "src/sim/scene/times.hpp"
 #include "src/text/quote.hpp"
 
 namespace fiber {
@@ -18,31 +18,6 @@ using Waypoints = std::vector<SimWaypoint>;
 
 /// The place in the scene of each hold, by rod and node.
 using HeldPlaces = std::map<std::pair<std::uint32_t, std::uint32_t>, std::string>;
-
-/// Indices of the fibres of this name, or of the entry of this name.
-std::vector<std::uint32_t> find_fibers(const YamlField& name, const std::vector<SimFiber>& fibers) {
-  const std::string wanted = name.text();
-  std::vector<std::uint32_t> found;
-  std::set<std::string> names;
-  for (std::uint32_t i = 0; i < fibers.size(); ++i) {
-    if (fibers[i].name == wanted || fibers[i].group == wanted) {
-      found.push_back(i);
-    }
-    names.insert(fibers[i].group);
-  }
-  if (found.empty()) {
-    name.refuse("the name of a fibre of the scene: " + shortened(join(names)));
-  }
-  return found;
-}
-
-std::uint32_t read_node(const std::optional<YamlField>& node, std::uint32_t count) {
-  const std::uint32_t last = count - 1;
-  if (!node || node->text() == "first") {
-    return 0;
-  }
-  return node->text() == "last" ? last : static_cast<std::uint32_t>(node->integer(0, last));
-}
 
 /// The edge at a node that a hold there takes its direction from.
 std::uint32_t edge_at(const Rods& rods, std::uint32_t rod, std::uint32_t node) {
@@ -92,17 +67,9 @@ Waypoints read_path(const YamlField& list, SimWaypoint waypoint) {
   Waypoints path;
   for (const YamlField& entry : list.items()) {
     entry.require_map(key_names("waypoint"));
-    const YamlField time = entry.get("time");
-    waypoint.time = time.number();
-    if (!std::isfinite(waypoint.time)) {
-      time.refuse("finite");
-    }
-    if (!path.empty() && !(waypoint.time > path.back().time)) {
-      time.refuse("later than the time before, " + std::to_string(path.back().time) + " s");
-    }
-    if (path.empty() && waypoint.time != 0.0) {
-      time.refuse("0, where the path begins");
-    }
+    waypoint.time =
+        read_time(entry.get("time"),
+                  path.empty() ? std::nullopt : std::make_optional(path.back().time), "path");
     read_waypoint(entry, waypoint);
     path.push_back(waypoint);
   }
@@ -114,11 +81,7 @@ Waypoints read_path(const YamlField& list, SimWaypoint waypoint) {
 
 /// Leads a path back to where it begins, after which it begins again.
 void close_path(const YamlField& period, Waypoints& path) {
-  const double length = period.number();
-  if (!(std::isfinite(length) && length > path.back().time)) {
-    period.refuse("longer than the path, " + std::to_string(path.back().time) +
-                  " s: it leads back to its beginning");
-  }
+  const double length = read_period(period, path.back().time, "path");
   path.push_back(path.front());
   path.back().time = length;
 }

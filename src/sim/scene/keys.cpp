@@ -5,62 +5,11 @@
 #include <cmath>
 #include <sstream>
 
-#include "fiber_proximity/sim/contacts.hpp"
 #include "fiber_proximity/sim/scene/scene.hpp"
-#include "src/text/join.hpp"
+#include "src/sim/scene/key_entries.hpp"
 
 namespace fiber {
 namespace {
-
-constexpr const char* needed = "required";
-constexpr const char* three_numbers = "three numbers";
-constexpr const char* a_direction = "three numbers, a direction";
-constexpr double unlimited = std::numeric_limits<double>::infinity();
-
-constexpr KeyLimits above_0{0.0, unlimited, true, false};
-constexpr KeyLimits at_least_0{0.0, unlimited, false, false};
-constexpr KeyLimits from_0_to_1{0.0, 1.0, false, false};
-
-std::string text_of(double value) {
-  std::ostringstream text;
-  text << value;
-  return text.str();
-}
-
-SceneKey other_key(const char* name, const std::string& allowed, const std::string& by_default,
-                   const char* unit, const char* text) {
-  return {name, allowed, by_default, unit, text, {}, std::nullopt};
-}
-
-SceneKey number_key(const char* name, const KeyLimits& limits, const std::string& by_default,
-                    const char* unit, const char* text) {
-  return {name,       (limits.excludes_min ? "a number " : "a number of ") + limits.text(),
-          by_default, unit,
-          text,       {},
-          limits};
-}
-
-SceneKey number_key(const char* name, const KeyLimits& limits, double by_default, const char* unit,
-                    const char* text) {
-  SceneKey key = number_key(name, limits, text_of(by_default), unit, text);
-  key.numbers = {by_default};
-  return key;
-}
-
-SceneKey count_key(const char* name, double max, const std::string& by_default, const char* text) {
-  std::ostringstream allowed;
-  allowed << "a whole number from 1 to " << static_cast<std::int64_t>(max);
-  return {name, allowed.str(), by_default, "", text, {}, KeyLimits{1.0, max, false, false}};
-}
-
-SceneKey vector_key(const char* name, const std::vector<double>& by_default, const char* unit,
-                    const char* text) {
-  std::vector<std::string> numbers;
-  for (const double each : by_default) {
-    numbers.push_back(text_of(each));
-  }
-  return {name, three_numbers, "[" + join(numbers) + "]", unit, text, by_default, std::nullopt};
-}
 
 /// A timer calls for frames, which needs some time itself: none may be shorter than a microsecond.
 /// Smaller residuals than those allowed are rounding errors, and with larger ones nothing would
@@ -111,8 +60,14 @@ std::vector<SceneMap> fiber_maps() {
                   "where it is absent and there is `accuracy` or `real_time`"),
         number_key("radius", above_0, needed, "m", "the same all along the fibre"),
         other_key("material", "a preset, or a map of moduli", needed, "", "see below"),
-        other_key("repeat", "a map of `count` and `offset`", "", "",
-                  "the entry is several fibres")}},
+        other_key("repeat", "a map of `count` and `offset`", "", "", "the entry is several fibres"),
+        other_key("velocity", three_numbers, "[0, 0, 0]", "m/s",
+                  "with which all of it begins; no point may begin faster than 1000 m/s"),
+        other_key("velocities", "a list of at least two velocities", "", "m/s",
+                  "in place of `velocity`: of points at equal distances along the fibre from its "
+                  "first end to its last, in between straight lines"),
+        other_key("angular_velocity", three_numbers, "[0, 0, 0]", "rad/s",
+                  "about its centre of mass, to begin with; added to the above")}},
       {"repeat",
        "The key `repeat` of a fibre: fibres `NAME_0`, `NAME_1`, and so on.",
        false,
@@ -157,122 +112,6 @@ std::vector<SceneMap> shape_maps() {
        "An overhand knot, its ends up and apart along x.",
        false,
        {center, number_key("size", above_0, needed, "m", "its width")}}};
-}
-
-SceneMap contact_map(const char* name, const char* about) {
-  return {
-      name,
-      about,
-      true,
-      {number_key("stiffness", at_least_0, 0.0, "N/m",
-                  "force by distance where surfaces meet; 0: by the material"),
-       number_key("restitution", from_0_to_1, default_restitution, "",
-                  "part of the speed of their approach with which surfaces part after an impact")}};
-}
-
-SceneMap drag_map() {
-  const Drag::Options by_default;
-  const WindField& wind = by_default.wind;
-  const auto numbers = [](const Eigen::Vector3d& v) {
-    return std::vector<double>(v.data(), v.data() + 3);
-  };
-  return {
-      "drag",
-      "The air, or another fluid that stands still or blows, resists.",
-      true,
-      {number_key("fluid_density", at_least_0, by_default.fluid_density, "kg/m³", ""),
-       number_key("across", at_least_0, by_default.across, "", "coefficient in cross flow"),
-       number_key("along", at_least_0, by_default.along, "", "coefficient along the fibre"),
-       vector_key("wind.mean", numbers(wind.mean), "m/s", "velocity"),
-       vector_key("wind.gust", numbers(wind.gust), "m/s", "amplitude of gusts"),
-       number_key("wind.gust_period", above_0, wind.gust_period, "s", ""),
-       number_key("wind.gust_length", above_0, wind.gust_length, "m", "along the mean velocity")}};
-}
-
-SceneMap bend_map() {
-  return {
-      "bend",
-      "EI resists bending.",
-      true,
-      {other_key("natural_curvature", "a number of at least 0, or `from_shape`", "0", "1/m",
-                 "at which it rests; `from_shape`: that in which each fibre begins"),
-       other_key("towards", a_direction, "", "",
-                 "to which side the first edge of each fibre bends; only with `twist` and a number "
-                 "for `natural_curvature`")}};
-}
-
-std::vector<SceneMap> attachment_maps() {
-  return {
-      {"attachment",
-       "Its options are a list of holds, each of these keys. No node is held twice.",
-       true,
-       {other_key("fiber", "the name of a fibre", needed, "",
-                  "that of a repeated one means each of its fibres"),
-        other_key("node", "`first`, `last` or an index", "first", "", ""),
-        other_key("kind", "`pin` or `clamp`", "pin", "", "a clamp holds the direction, too"),
-        other_key(
-            "position", three_numbers, "", "m",
-            "within an edge's length of the node; where it is if it is absent. With `frame`, in "
-            "that frame, and its origin if it is absent"),
-        other_key("tangent", a_direction, "", "", "of a clamp; the fibre's own if it is absent"),
-        other_key("director", "three numbers, a direction across the tangent", "", "",
-                  "of a clamp with `twist`: how the section lies; its own if it is absent"),
-        other_key("path", "a list of waypoints", "", "", "on which it moves; see below"),
-        number_key(
-            "period", above_0, "", "s",
-            "after which the path begins again; longer than the path, to whose beginning it leads"),
-        other_key("frame", "a string", "", "", "of tf, which it follows; not beside `path`"),
-        number_key(
-            "max_force", above_0, "", "N",
-            "with which it pulls at most; if it is absent, what stretches the fibre by a tenth")}},
-      {"waypoint",
-       "An entry of `path`. In between, holds move in a straight line. What is not given stays as "
-       "it was.",
-       false,
-       {other_key("time", "a number, 0 in the first and then rising", needed, "s", ""),
-        other_key("position", three_numbers, "", "m", ""),
-        other_key("tangent", a_direction, "", "", ""),
-        other_key("director", "three numbers, a direction across the tangent", "", "", "")}}};
-}
-
-std::vector<SceneMap> effect_maps() {
-  const Friction::Options friction;
-  const Plasticity::Options plasticity;
-  std::vector<SceneMap> maps{
-      {"gravity", "", true, {vector_key("acceleration", {0.0, 0.0, -9.81}, "m/s²", "")}},
-      {"stretch", "EA resists changes of length.", true, {}},
-      {"inextensible", "In place of `stretch`: lengths stay.", true, {}},
-      bend_map(),
-      {"twist",
-       "GJ resists twist, and clamps hold the section, too. Friction acts at the surface, so that "
-       "fibres roll.",
-       true,
-       {}},
-      {"damping",
-       "Of stretch, bend and twist. Rigid motion is never damped.",
-       true,
-       {number_key("relaxation_time", at_least_0, 0.01, "s", "")}},
-      drag_map(),
-      {"plasticity",
-       "Bending that stays. Not beside a natural curvature that has a direction.",
-       true,
-       {number_key("yield_strain", above_0, plasticity.yield_strain, "", "of the outermost layer"),
-        number_key("hardening", {0.0, 1.0, false, true}, plasticity.hardening, "",
-                   "elastic part of what is bent beyond that")}},
-      contact_map("self_contact", "A fibre touches itself."),
-      contact_map("fiber_contact", "Fibres touch each other."),
-      contact_map("environment_contact", "Fibres touch the obstacles of `environment`."),
-      {"friction",
-       "In all contacts, of which the scene must name some. Without `twist` it acts on the axes: "
-       "fibres slide, and never roll.",
-       true,
-       {number_key("coefficient", at_least_0, friction.coefficient, "", ""),
-        number_key("stick_speed", above_0, friction.stick_speed, "m/s",
-                   "over a step, the length by which what sticks gives way before it slides")}}};
-  for (SceneMap& map : attachment_maps()) {
-    maps.push_back(std::move(map));
-  }
-  return maps;
 }
 
 }  // namespace

@@ -83,17 +83,52 @@ void read_holds(const YamlField& list, SimDescription& scene);
 std::function<Placement(double)> placement_of(const SimHold& hold, const SimDescription& scene,
                                               const Rods& rods, std::vector<FollowedFrame>& frames);
 
-/// Reads the list `effects` of a scene but for its holds: each entry is a name, or a map of a name
-/// to options that replace the default ones.
+/// Reads the options of the effect `load`: a list of loads, each of
+///   fiber:    name; that of a repeated fibre means each of them
+///   node:     first, last, or an index; or a part of the fibre:
+///   from, to: [m] along the fibre; its ends if they are not given
+///   force, moment, torque, mass: what acts there, per metre of a part
+///   table:    a list of {time, force, moment, torque}, in between straight lines; what is not
+///             given stays as it was
+///   period:   [s] after which the table begins again, to where it leads back from its last entry
+/// @param scene with its effects, fibres and rods; gets the loads
+/// @throws std::invalid_argument naming file, line and value, what is allowed, and the fibre
+void read_loads(const YamlField& list, SimDescription& scene);
+
+/// Makes the effect `load`.
+/// @param rods  with twist, have their angles already; get the masses of weights
+/// @param scene gets the parameters: forces, moments and torques that do not change in time
+/// @returns null if the scene does not name it
+/// @throws std::invalid_argument naming file and line, for a load that Loads::add() refuses
+std::shared_ptr<Loads> make_loads(const SimDescription& description, Rods& rods, SimScene& scene);
+
+/// The options of effects that are lists and are about fibres, which have to be cut first.
+struct EffectLists {
+  std::optional<YamlField> holds;  ///< of the effect attachment; none if there is none
+  std::optional<YamlField> loads;
+};
+
+/// Reads the list `effects` of a scene but for those lists: each entry is a name, or a map of a
+/// name to options that replace the default ones.
 /// The effect `bend` has the options
 ///   natural_curvature: [1/m], or from_shape: that which each fibre begins with; 0 if there is none
 ///   towards:           a direction, to which side the first edge of each fibre bends; to any side
 ///                      if there is none
-/// @returns the list of holds, options of the effect attachment; none if there is none
 /// @throws std::invalid_argument naming file, line, effect and value, and what is allowed
-std::optional<YamlField> read_effects(const YamlField& list, SimDescription& scene);
+EffectLists read_effects(const YamlField& list, SimDescription& scene);
 
-/// The size of the gravity that a scene names [m/s²]; 0 without.
+/// Reads the options of the effect `bend`.
+/// @throws std::invalid_argument naming file, line and value, and what is allowed
+SimCurvature read_natural_curvature(const YamlField& bend, bool has_twist);
+
+/// Gives rods the natural curvature of a scene.
+/// @param rods with twist, have their frames already
+/// @throws std::invalid_argument naming file, line and fibre, for a fibre that does not have the
+///         side to which it is to bend
+void set_natural_curvature(const SimDescription& scene, Rods& rods);
+
+/// The size of the gravity that a scene names, where it changes in time the largest [m/s²]; 0
+/// without.
 double gravity_of(const SimDescription& scene);
 
 /// Effects made for the rods of a scene.

@@ -258,7 +258,7 @@ SimDescription read_sim_scene(const YamlField& document, const MeshSource& meshe
   }
   read_within(document, "time_step", scene.time_step);
   read_within(document, "max_strain", scene.max_strain);
-  const auto holds = read_effects(document.get("effects"), scene);
+  const EffectLists lists = read_effects(document.get("effects"), scene);
   read_stepper_options(document, scene.options);
   const SceneResolution resolution(document, gravity_of(scene));
   const EnvironmentScene environment =
@@ -266,8 +266,11 @@ SimDescription read_sim_scene(const YamlField& document, const MeshSource& meshe
   scene.separates_overlaps = read_choice(document.find("initial_overlap"), "refuse", "separate");
   const auto complete = [&](SimDescription& made) {
     made.allowed = resolve(environment.allowed, made.fiber_names);
-    if (holds) {
-      read_holds(*holds, made);
+    if (lists.holds) {
+      read_holds(*lists.holds, made);
+    }
+    if (lists.loads) {
+      read_loads(*lists.loads, made);
     }
   };
   return resolution.apply(scene, complete, timer);

@@ -19,7 +19,8 @@ std::string page() {
   text << "# The keys of scenes\n\n"
           "All keys of the scenes of `cable_sim` and `fiber_simulate`; "
           "[simulation.md](simulation.md) is the\n"
-          "guide. A number must be finite. Made from `src/sim/scene/keys.cpp` by\n`"
+          "guide. A number must be finite. Made from `keys.cpp` and `effect_keys.cpp` in "
+          "`src/sim/scene` by\n`"
        << write_variable << "=1 sim_scene_test --gtest_filter='SceneKeys*'`.\n";
   for (const SceneMap& map : scene_maps()) {
     const bool is_shape = map.name.rfind("shape ", 0) == 0;
@@ -115,10 +116,28 @@ std::string scene_with(const SceneMap& map, const std::string& key, const std::s
     effects += ", {attachment: [" + with(others({{"fiber", "a"}}) + path) + "]}";
   } else if (map.name == "waypoint") {
     effects += ", {attachment: [{fiber: a, path: [" + with(others({{"time", "0"}})) + "]}]}";
+  } else if (map.name == "load") {
+    std::vector<std::pair<std::string, std::string>> all{{"fiber", "a"}, {"mass", "1"}};
+    if (key != "from" && key != "to") {
+      all.emplace_back("node", "last");
+    }
+    if (key == "period") {
+      all.emplace_back("table", "[{time: 0}, {time: 1}]");
+    }
+    effects += ", {load: [" + with(others(all)) + "]}";
+  } else if (map.name == "table") {
+    const std::string table = "table: [" + with(others({{"time", "0"}})) + "]";
+    effects = key == "acceleration" ? "{gravity: {" + table + "}}"
+                                    : "twist, {load: [{fiber: a, node: last, " + table + "}]}";
   } else {
     EXPECT_TRUE(map.is_effect) << "this test knows no scene with " << map.name;
     effects = map.name == "gravity" ? "stretch" : effects;
-    effects += ", {" + map.name + ": " + with(key == "towards" ? "natural_curvature: 1" : "") + "}";
+    const bool is_gravity_period = map.name == "gravity" && key == "period";
+    effects += ", {" + map.name + ": " +
+               with(key == "towards"    ? "natural_curvature: 1"
+                    : is_gravity_period ? "table: [{time: 0}]"
+                                        : "") +
+               "}";
     effects += map.name == "friction" ? ", fiber_contact" : "";
     if (map.name == "environment_contact") {
       environment =

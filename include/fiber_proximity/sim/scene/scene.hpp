@@ -11,6 +11,7 @@
 #include "fiber_proximity/environment/environment.hpp"
 #include "fiber_proximity/environment/scene/environment_scene.hpp"
 #include "fiber_proximity/sim/attachment.hpp"
+#include "fiber_proximity/sim/loads.hpp"
 #include "fiber_proximity/sim/stepper.hpp"
 #include "fiber_proximity/yaml/yaml_field.hpp"
 
@@ -51,6 +52,8 @@ struct SimFiber {
   std::string name;
   std::string group;  ///< name of the entry it comes from
   std::string place;
+  double length = 0.0;  ///< of its shape, before it is cut into segments [m]
+  Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();  ///< to begin with [rad/s]
 };
 
 /// The numbers of an effect by the names of its options. Names of options in a map begin with that
@@ -92,13 +95,23 @@ struct SimHold {
   double max_force = 0.0;            ///< with which it pulls [N]; 0: by the material
 };
 
+/// A load on a rod.
+struct SimLoad {
+  std::string place;
+  std::uint32_t entry = 0;  ///< of the list, counted from 0; that of a repeated fibre has several
+  Loads::Load load;
+  std::vector<std::string> parameters;  ///< force, moment, torque: those that are given once
+};
+
 /// The contents of a scene file, checked as far as possible without making the scene.
 struct SimDescription : SimSettings {
   Rods rods;  ///< as they lie in the file
   std::vector<SimFiber> fibers;
-  std::vector<SimEffect> effects;  ///< in the order of the scene
+  std::vector<SimEffect> effects;                             ///< in the order of the scene
+  std::optional<TimeTable<Eigen::Vector3d>> gravity_in_time;  ///< [m/s²]; none: it is constant
   SimCurvature natural_curvature;
   std::vector<SimHold> holds;
+  std::vector<SimLoad> loads;
   AllowedPairs allowed;             ///< fibres and objects that may touch
   bool separates_overlaps = false;  ///< moves fibres apart that begin inside of something
 

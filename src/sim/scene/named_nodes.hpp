@@ -1,0 +1,27 @@
+// Which fibres, nodes and parts of fibres an entry of an effect's list is about.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "fiber_proximity/sim/scene/scene.hpp"
+
+namespace fiber {
+
+/// Indices of the fibres of this name, or of the entry of this name.
+/// @throws std::invalid_argument naming file, line and value, and the names there are
+std::vector<std::uint32_t> find_fibers(const YamlField& name, const std::vector<SimFiber>& fibers);
+
+/// Reads `first`, `last` or an index; the first node if there is no field.
+/// @param count of the fibre's nodes
+/// @throws std::invalid_argument naming file, line and value, and what is allowed
+std::uint32_t read_node(const std::optional<YamlField>& node, std::uint32_t count);
+
+/// Reads the keys `from` and `to` of an entry [m]: lengths along the fibre's shape, which is a
+/// little longer than its edges together.
+/// @returns the part in lengths of edges; the fibre's ends for what is not given
+/// @throws std::invalid_argument naming file, line and value, for a part that leaves the fibre or
+///         has no length
+RodPart read_part(const YamlField& entry, const SimDescription& scene, std::uint32_t rod);
+
+}  // namespace fiber

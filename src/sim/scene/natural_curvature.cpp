@@ -1,0 +1,73 @@
+// Options of the effect `bend`.
+#include <cmath>
+
+#include "src/sim/effects/natural_bend.hpp"
+#include "src/sim/scene/keys.hpp"
+#include "src/sim/scene/parts.hpp"
+
+namespace fiber {
+namespace {
+
+double read_curvature(const YamlField& field) {
+  constexpr const char* allowed = "at least 0 and finite, or from_shape";
+  double curvature = 0.0;
+  try {
+    curvature = field.number();
+  } catch (const std::invalid_argument&) {
+    field.refuse(allowed);
+  }
+  if (!(std::isfinite(curvature) && curvature >= 0.0)) {
+    field.refuse(allowed);
+  }
+  return curvature;
+}
+
+}  // namespace
+
+SimCurvature read_natural_curvature(const YamlField& bend, bool has_twist) {
+  bend.require_map(key_names("bend"));
+  const auto given = bend.find("natural_curvature");
+  const auto towards = bend.find("towards");
+  SimCurvature read;
+  read.is_from_shape = given && given->is_text() && given->text() == "from_shape";
+  if (given && !read.is_from_shape) {
+    read.curvature = read_curvature(*given);
+  }
+  if (towards) {
+    if (!has_twist) {
+      towards->refuse(
+          "absent where there is no twist: cross-sections that turn freely have no side");
+    }
+    if (read.is_from_shape) {
+      towards->refuse("absent where the natural curvature is from_shape");
+    }
+    if (!given) {
+      towards->refuse("absent where there is no natural_curvature");
+    }
+    read.towards = towards->vector();
+    read.towards_statement = towards->statement();
+  }
+  return read;
+}
+
+void set_natural_curvature(const SimDescription& scene, Rods& rods) {
+  const SimCurvature& natural = scene.natural_curvature;
+  if (natural.is_from_shape) {
+    set_natural_shape(rods);
+  } else if (natural.towards) {
+    for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
+      try {
+        set_natural_arc(rods, rod, natural.curvature, *natural.towards);
+      } catch (const std::invalid_argument&) {
+        throw std::invalid_argument(natural.towards_statement +
+                                    ", it must be finite and a direction across the fibre's first "
+                                    "edge (fibre " +
+                                    quote(scene.fiber_names[rod]) + ")");
+      }
+    }
+  } else if (natural.curvature > 0.0) {
+    rods.natural_curvatures.assign(rods.positions.size(), natural.curvature);
+  }
+}
+
+}  // namespace fiber
