@@ -41,6 +41,7 @@ add_message_files(FILES
   ForceArray.msg
   HoldForce.msg
   InputStatistics.msg
+  JointForce.msg
   Obstacle.msg
   ObstacleArray.msg
   PredictedContact.msg

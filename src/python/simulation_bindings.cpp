@@ -129,7 +129,7 @@ void set_parameters(Simulation& simulation, const py::dict& values) {
 std::shared_ptr<Fibers> fibers_of(const Simulation& simulation) {
   return std::make_shared<Fibers>(simulation.with([](SimScene& scene) {
     const Rods& rods = scene.stepper->rods();
-    return FiberAssembly(rods.positions, rods.offsets, rods.radii);
+    return assembly_of(rods);
   }));
 }
 

@@ -54,7 +54,8 @@ Effects effects_of(Rods& rods, const Scene& scene) {
 }
 
 std::unique_ptr<Joints> joints_of(const Scene& scene) {
-  return std::make_unique<Joints>(Joints::Options{true, scene.relaxation_time});
+  return std::make_unique<Joints>(
+      Joints::Options{true, std::make_shared<Damping>(scene.relaxation_time)});
 }
 
 /// Points of a fibre that is bent, and moves.
@@ -368,7 +369,8 @@ TEST(Joints, ImplicitEulerGainsNoEnergy) {
     Rods rods = branches(random.uniform(0.3, 1.0));
     Effects all = free_of_gravity(rods, round % 4 > 1);
     const double relaxation = round % 3 == 0 ? 0.02 : 0.0;
-    auto joints = std::make_unique<Joints>(Joints::Options{true, relaxation});
+    auto joints =
+        std::make_unique<Joints>(Joints::Options{true, std::make_shared<Damping>(relaxation)});
     joints->add(rods, branching(round % 2 == 0 ? Joints::Kind::BALL : Joints::Kind::WELD));
     give_velocities(rods, random, 1.0);
     Stepper stepper(rods, std::move(all), precise(), nullptr, std::move(joints));
