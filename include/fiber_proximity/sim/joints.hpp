@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
-#include "fiber_proximity/sim/effects.hpp"
+#include "fiber_proximity/sim/effect.hpp"
 
 namespace fiber {
 
@@ -16,6 +16,7 @@ struct JointNode {
 };
 
 struct JointParts;
+class Damping;
 
 /// Joints of rods with each other or with themselves: nodes that are one place.
 ///

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "fiber_proximity/sim/effects.hpp"
 #include "src/sim/edges.hpp"
 #include "src/sim/joint/joint_parts.hpp"
 
