@@ -48,6 +48,7 @@ add_library(fiber_proximity_mpi SHARED
   src/mpi/distributed_engine.cpp
   src/mpi/distributed_options.cpp
   src/mpi/fiber_chains.cpp
+  src/mpi/fiber_data.cpp
   src/mpi/fiber_name_data.cpp
   src/mpi/fiber_name_text.cpp
   src/mpi/fiber_pair_search.cpp

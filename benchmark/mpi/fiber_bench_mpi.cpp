@@ -6,6 +6,7 @@
 #include <ctime>
 #include <fstream>
 #include <iostream>
+#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -27,6 +28,7 @@ struct BenchRequest {
   QueryOptions query;
   bool without_ranks = false;
   bool is_adopted = false;
+  std::uint32_t joined = 0;
 };
 
 /// Time and processor time so far [s].
@@ -116,8 +118,33 @@ void make_part(const Communicator& ranks, const LargeScene& scene, std::uint32_t
   fibers.parts = FiberAssembly();  // those of before are gone then
   fibers.parts = scene.fibers(begin, end, frame);
   fibers.names.clear();
+  fibers.topology = {};
   for (std::uint64_t fiber = begin; fiber < end; ++fiber) {
     fibers.names.push_back({fiber, 0});
+  }
+}
+
+/// Joins so many fibres that follow each other, wherever they are: the end of one with the start of
+/// the next. 1 joins the ends of each fibre; 0 joins nothing.
+void join_fibers(std::uint32_t joined, DistributedFibers& fibers) {
+  if (joined == 0) {
+    return;
+  }
+  const std::vector<std::uint32_t>& offsets = fibers.parts.offsets();
+  fibers.topology.joint_tolerance = std::numeric_limits<double>::infinity();
+  fibers.topology.joints.assign(fibers.parts.point_count(), -1);
+  for (std::size_t part = 0; part < fibers.names.size(); ++part) {
+    const std::uint64_t fiber = fibers.names[part].fiber;
+    std::int32_t& start = fibers.topology.joints[offsets[part]];
+    std::int32_t& end = fibers.topology.joints[offsets[part + 1] - 1];
+    if (joined == 1 || fiber % joined != 0) {
+      start = static_cast<std::int32_t>(fiber);
+    }
+    if (joined == 1) {
+      end = start;
+    } else if ((fiber + 1) % joined != 0) {
+      end = static_cast<std::int32_t>(fiber + 1);
+    }
   }
 }
 
@@ -177,9 +204,10 @@ ExitCode run(const BenchRequest& request) {
         move_part(scene, frame, fibers);
       } else {
         make_part(ranks, scene, frame, fibers);
+        join_fibers(request.joined, fibers);
       }
       measure([&] {
-        engine.update(fibers.parts, fibers.names);
+        engine.update(fibers.parts, fibers.names, fibers.topology);
         engine.query(request.query, result);
       });
       facts = engine.facts();
@@ -197,6 +225,8 @@ ExitCode run(const BenchRequest& request) {
   const double processor = ranks.max(measurement.processor());
   const double memory = ranks.max((measurement.peak() - baseline - size_of(fibers)) /
                                   static_cast<double>(facts.own_segments + facts.halo_segments));
+  const double joined = static_cast<double>(ranks.sum(facts.joined_segments)) /
+                        static_cast<double>(ranks.sum(facts.own_segments));
   if (ranks.rank() == 0) {
     nlohmann::ordered_json line;
     line["scene"] = request.scene;
@@ -207,6 +237,7 @@ ExitCode run(const BenchRequest& request) {
     line["processor_ms"] = 1e3 * processor;
     line["pairs"] = pairs;
     line["halo"] = halo;
+    line["joined"] = joined;
     line["bytes_per_segment"] = memory;
     line["splits"] = facts.split_count;
     std::cout << line.dump() << "\n";
@@ -226,6 +257,11 @@ void setup(CLI::App& app, Command& command) {
       ->check(whole_number(1))
       ->capture_default_str();
   app.add_option("--margin", request->query.margin, "[m]")->capture_default_str();
+  app.add_option("--joined", request->joined,
+                 "join so many fibres that follow each other, end to start, wherever they are; 1: "
+                 "the ends of each fibre")
+      ->check(whole_number(0))
+      ->capture_default_str();
   app.add_flag("--adopt", request->is_adopted, "ranks bring what they hold, after each split");
   app.add_flag("--without-ranks", request->without_ranks,
                "ask an engine run_tree of one thread, as a program without MPI does");

@@ -31,9 +31,7 @@ void check_sizes(const std::vector<std::uint32_t>& offsets, const FiberTopology&
     refuse_topology("joints has ", topology.joints.size(), " value(s) for ", offsets.back(),
                     " points; give none or one per point");
   }
-  if (!(topology.joint_tolerance.value_or(0.0) >= 0.0)) {
-    refuse_topology("joint_tolerance is ", *topology.joint_tolerance, " m, it must be at least 0");
-  }
+  FiberGraph::require_tolerance(topology.joint_tolerance);
   for (std::size_t fiber = 0; fiber < topology.closed.size(); ++fiber) {
     const std::uint32_t count = offsets[fiber + 1] - offsets[fiber];
     if (topology.closed[fiber] != 0 && count < FiberGraph::min_closed_points) {
@@ -213,6 +211,12 @@ double FiberGraph::allowed_distance(const FiberAssembly& fibers, std::uint32_t j
 std::string FiberGraph::error_of_closed(std::uint64_t fiber, std::uint64_t point_count) {
   return "fibre " + std::to_string(fiber) + ": is closed and has " + std::to_string(point_count) +
          " points, a closed fibre needs at least " + std::to_string(min_closed_points);
+}
+
+void FiberGraph::require_tolerance(const std::optional<double>& joint_tolerance) {
+  if (!(joint_tolerance.value_or(0.0) >= 0.0)) {
+    refuse_topology("joint_tolerance is ", *joint_tolerance, " m, it must be at least 0");
+  }
 }
 
 void FiberGraph::require_repeated(std::uint64_t fiber, const Eigen::Vector3d& first,

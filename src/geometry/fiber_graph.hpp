@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -153,6 +154,9 @@ class FiberGraph {
 
   /// What is said of a closed fibre that has fewer.
   static std::string error_of_closed(std::uint64_t fiber, std::uint64_t point_count);
+
+  /// @throws std::invalid_argument for a joint_tolerance below 0 [m]
+  static void require_tolerance(const std::optional<double>& joint_tolerance);
 
   /// @throws std::invalid_argument for a closed fibre whose repeated point is not its first one
   static void require_repeated(std::uint64_t fiber, const Eigen::Vector3d& first,

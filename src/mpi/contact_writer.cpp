@@ -113,7 +113,7 @@ void DistributedContactWriter::write(std::int64_t frame, const DistributedResult
                                      const FiberNames& names) {
   const Communicator& ranks = state_->ranks;
   const RankShare rows = ranks.share(result.contacts.size());
-  state_->files.write(frame, bytes_per_contact * rows.all + size_of_names(names),
+  state_->files.write({frame, layout_version, bytes_per_contact * rows.all + size_of_names(names)},
                       [&](hid_t file, FrameDatasets& datasets) {
                         write_numbers(file, "complete", {result.complete ? 1 : 0});
                         write_numbers(file, "limit_reached", {result.limit_reached ? 1 : 0});

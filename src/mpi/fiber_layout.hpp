@@ -25,6 +25,8 @@ constexpr const char* types = "Types";
 constexpr const char* radius = "radius";
 constexpr const char* fiber = "fiber";
 constexpr const char* first_segment = "first_segment";
+constexpr const char* joint = "joint";    // of a point, below 0 for none
+constexpr const char* closed = "closed";  // of a line: 1 if its fibre is
 
 constexpr std::uint8_t line = 3;       // VTK_LINE
 constexpr std::uint8_t poly_line = 4;  // VTK_POLY_LINE

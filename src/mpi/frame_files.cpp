@@ -1,5 +1,6 @@
 #include "src/mpi/frame_files.hpp"
 
+#include <algorithm>
 #include <exception>
 #include <filesystem>
 #include <optional>
@@ -122,6 +123,7 @@ bool FrameFiles::is_of_this_run(const std::string& path) {
                                quote(options_.run));
     }
     frames_.insert(read_number(file.get(), attribute::frame).value_or(0));
+    max_version_ = std::max(max_version_, read_number(file.get(), attribute::version).value_or(0));
   } catch (const std::exception& failure) {
     throw FileError(path, std::string("cannot be gone on with: ") + failure.what());
   }
@@ -136,13 +138,13 @@ std::string FrameFiles::path_of(std::size_t index) const {
   return options_.has_frames ? folder() + '/' + frame_name(index) + ".h5" : path_;
 }
 
-void FrameFiles::write_attributes(hid_t file) const {
+void FrameFiles::write_attributes(hid_t file, std::int64_t version) const {
   write_text(file, attribute::content, content_);
-  write_numbers(file, attribute::version, {layout_version});
+  write_numbers(file, attribute::version, {version});
   write_text(file, attribute::run, options_.run);
 }
 
-void FrameFiles::write(std::int64_t frame, std::uint64_t data_size,
+void FrameFiles::write(const FrameFacts& facts,
                        const std::function<void(hid_t file, FrameDatasets& datasets)>& make) {
   const QuietHdf5 quiet;
   const std::string path = path_of(done_);
@@ -150,19 +152,20 @@ void FrameFiles::write(std::int64_t frame, std::uint64_t data_size,
     if (!options_.has_frames && done_ > 0) {
       throw FileError(path_, "holds one frame, without a number: there cannot be another");
     }
-    if (!frames_.insert(options_.has_frames ? frame : 0).second) {
-      throw FileError(path_, "has a frame " + std::to_string(frame) + " already");
+    if (!frames_.insert(options_.has_frames ? facts.number : 0).second) {
+      throw FileError(path_, "has a frame " + std::to_string(facts.number) + " already");
     }
-    make_room(path, data_size + space_of_names);
+    make_room(path, facts.data_size + space_of_names);
   });
+  max_version_ = std::max(max_version_, facts.version);
   // All that is collective is done before a rank can fail alone.
   std::optional<Hdf5Id> file;
   FrameDatasets datasets;
   std::string error = error_in([&] {
     file.emplace(create_parallel_file(ranks_, partial_name(path)));
-    write_attributes(file->get());
+    write_attributes(file->get(), facts.version);
     if (options_.has_frames) {
-      write_numbers(file->get(), attribute::frame, {frame});
+      write_numbers(file->get(), attribute::frame, {facts.number});
     }
     make(file->get(), datasets);
   });
@@ -194,7 +197,7 @@ void FrameFiles::write_links() const {
   make_room(path_, space_of_names + done_ * space_of_link);
   Hdf5Id file(H5Fcreate(partial_name(path_).c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT),
               H5Fclose, "cannot be written");
-  write_attributes(file.get());
+  write_attributes(file.get(), max_version_);
   write_numbers(file.get(), attribute::has_frames, {1});
   const Hdf5Id frames = create_group(file.get(), "frames");
   const std::string beside = std::filesystem::path(folder()).filename().string();

@@ -22,9 +22,19 @@ constexpr const char* version = "version";
 constexpr const char* has_frames = "has_frames";
 constexpr const char* frame = "frame";
 constexpr const char* run = "run";
+constexpr const char* joint_tolerance = "joint_tolerance";
 }  // namespace attribute
 
 constexpr std::int64_t layout_version = 1;
+/// Of files with closed or joined fibres, so that programs that know of none refuse them.
+constexpr std::int64_t layout_version_of_joints = 2;
+
+/// What a frame is, beside its data.
+struct FrameFacts {
+  std::int64_t number = 0;
+  std::int64_t version = layout_version;
+  std::uint64_t data_size = 0;  ///< [byte] of all its datasets together
+};
 
 /// Name of a frame by its index, within `frames` of NAME.h5 and in the folder NAME.frames.
 std::string frame_name(std::size_t index);
@@ -41,10 +51,9 @@ class FrameFiles {
   std::size_t done() const { return done_; }
 
   /// Writes the next frame.
-  /// @param data_size of all datasets together [byte]
   /// @param make makes all groups, attributes and datasets on all ranks alike
   /// @throws std::invalid_argument
-  void write(std::int64_t frame, std::uint64_t data_size,
+  void write(const FrameFacts& facts,
              const std::function<void(hid_t file, FrameDatasets& datasets)>& make);
 
   /// @throws std::invalid_argument
@@ -56,7 +65,7 @@ class FrameFiles {
   void begin_anew() const;
   std::size_t count_done();
   bool is_of_this_run(const std::string& path);
-  void write_attributes(hid_t file) const;
+  void write_attributes(hid_t file, std::int64_t version) const;
   void write_links() const;
 
   const Communicator& ranks_;
@@ -64,7 +73,8 @@ class FrameFiles {
   const std::string content_;
   const DistributedFileOptions options_;
   std::size_t done_ = 0;
-  std::set<std::int64_t> frames_;  // numbers of those that are done
+  std::set<std::int64_t> frames_;              // numbers of those that are done
+  std::int64_t max_version_ = layout_version;  // of those, on rank 0
 };
 
 struct DistributedFileWriter::State {

@@ -106,24 +106,6 @@ std::vector<GlobalJointPoint> numbered_points_of(const std::vector<PointNotice>&
   return numbered;
 }
 
-/// The joint_tolerance of the ranks that join anything.
-std::optional<double> common_tolerance(const Communicator& ranks, const FiberTopology& topology) {
-  struct Tolerance {
-    bool counts = false;
-    double value = -1.0;  // [m]; -1: none is set
-  };
-  const std::vector<Tolerance> of_ranks = ranks.gather_all(
-      Tolerance{joins_anything(topology), topology.joint_tolerance.value_or(-1.0)});
-  const auto counts = [](const Tolerance& tolerance) { return tolerance.counts; };
-  const auto first = std::find_if(of_ranks.begin(), of_ranks.end(), counts);
-  for (auto other = first; other != of_ranks.end(); ++other) {
-    if (other->counts && other->value != first->value) {
-      throw std::invalid_argument("joint_tolerance is not the same on all ranks, it must be");
-    }
-  }
-  return first == of_ranks.end() || first->value < 0.0 ? std::nullopt : std::optional(first->value);
-}
-
 }  // namespace
 
 GlobalJoints::GlobalJoints(const Communicator& ranks, const FiberAssembly& parts,
@@ -155,6 +137,8 @@ void GlobalJoints::take(std::vector<GlobalJointPoint> numbered) {
     if (goes_on || is_same_joint(i, i + 1)) {
       before.push_back(goes_on ? points_.size() - 1 : points_.size());
       points_.push_back(numbered[i]);
+    } else if (!lonely_) {
+      lonely_ = numbered[i].joint;
     }
   }
   for (const GlobalJointPoint& point : points_) {
@@ -218,6 +202,13 @@ std::int32_t GlobalJoints::next_free_number(std::int32_t last) const {
     ++last;
   }
   return last;
+}
+
+std::optional<std::int32_t> find_lonely_joint(const Communicator& ranks,
+                                              const DistributedFibers& fibers) {
+  FiberTopology topology;
+  ranks.throw_on_all(error_in([&] { topology = part_topology(fibers.parts, fibers.topology); }));
+  return GlobalJoints(ranks, fibers.parts, fibers.names, topology).lonely();
 }
 
 }  // namespace fiber

@@ -52,6 +52,9 @@ class GlobalJoints {
   /// A number that no joint has, the smallest that is larger than `last`.
   std::int32_t next_free_number(std::int32_t last) const;
 
+  /// The smallest number that one point alone has, so that it joins nothing.
+  const std::optional<std::int32_t>& lonely() const { return lonely_; }
+
   const std::optional<double>& tolerance() const { return tolerance_; }  ///< [m]
 
  private:
@@ -66,7 +69,13 @@ class GlobalJoints {
   std::vector<GlobalJointPoint> points_;    // by fibre and point
   std::vector<std::int32_t> numbers_;       // of joints, sorted
   std::vector<FiberComponent> components_;  // by fibre
-  std::optional<double> tolerance_;         // [m]
+  std::optional<std::int32_t> lonely_;
+  std::optional<double> tolerance_;  // [m]
 };
+
+/// The smallest number of a joint that one point of all ranks alone has. Collective.
+/// @throws std::invalid_argument as part_topology() and GlobalJoints
+std::optional<std::int32_t> find_lonely_joint(const Communicator& ranks,
+                                              const DistributedFibers& fibers);
 
 }  // namespace fiber

@@ -95,6 +95,18 @@ std::optional<Hdf5Id> open_attribute(hid_t place, const std::string& name, H5T_c
   return attribute;
 }
 
+template <class Value>
+std::optional<Value> read_attribute(hid_t place, const std::string& name, H5T_class_t kind) {
+  const std::optional<Hdf5Id> attribute = open_attribute(place, name, kind);
+  if (!attribute) {
+    return std::nullopt;
+  }
+  Value value = 0;
+  require_success(H5Aread(attribute->get(), hdf5_type(value).memory, &value),
+                  "attribute " + name + " cannot be read");
+  return value;
+}
+
 }  // namespace
 
 QuietHdf5::QuietHdf5() {
@@ -173,14 +185,11 @@ void write_text(hid_t place, const std::string& name, const std::string& text) {
 }
 
 std::optional<std::int64_t> read_number(hid_t place, const std::string& name) {
-  const std::optional<Hdf5Id> attribute = open_attribute(place, name, H5T_INTEGER);
-  if (!attribute) {
-    return std::nullopt;
-  }
-  std::int64_t value = 0;
-  require_success(H5Aread(attribute->get(), hdf5_type(value).memory, &value),
-                  "attribute " + name + " cannot be read");
-  return value;
+  return read_attribute<std::int64_t>(place, name, H5T_INTEGER);
+}
+
+std::optional<double> read_real(hid_t place, const std::string& name) {
+  return read_attribute<double>(place, name, H5T_FLOAT);
 }
 
 std::optional<std::string> read_text(hid_t place, const std::string& name) {

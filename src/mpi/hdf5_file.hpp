@@ -74,6 +74,7 @@ void write_text(hid_t place, const std::string& name, const std::string& text);
 
 /// Nothing if there is none of this name, or of another kind.
 std::optional<std::int64_t> read_number(hid_t place, const std::string& name);
+std::optional<double> read_real(hid_t place, const std::string& name);
 std::optional<std::string> read_text(hid_t place, const std::string& name);
 
 /// In memory, and in a file: little-endian, so that files are the same everywhere.

@@ -36,8 +36,8 @@ class OwnedFibers {
   /// @param load     of this rank since the last update
   /// @throws std::invalid_argument on every rank as DistributedEngine::update()
   void update(const Communicator& ranks, const FiberAssembly& parts,
-              const std::vector<FiberPart>& names, const FiberTopology& topology,
-              const RankLoad& load) {
+              const std::vector<FiberPart>& names, const FiberTopology& topology = {},
+              const RankLoad& load = {}) {
     take(ranks, parts, nullptr, names, topology, load);
   }
 

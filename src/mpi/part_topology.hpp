@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "fiber_proximity/geometry/fiber_topology.hpp"
+#include "src/mpi/communicator.hpp"
 
 namespace fiber {
 
@@ -20,5 +22,9 @@ inline bool joins_anything(const FiberTopology& topology) {
 /// beside the parts, or what the parts themselves have. Without vectors if nothing is joined.
 /// @throws std::invalid_argument if both are given, and for vectors of other lengths
 FiberTopology part_topology(const FiberAssembly& parts, const FiberTopology& given);
+
+/// The joint_tolerance of the ranks that join anything [m]. Collective.
+/// @throws std::invalid_argument on every rank if they do not agree
+std::optional<double> common_tolerance(const Communicator& ranks, const FiberTopology& topology);
 
 }  // namespace fiber

@@ -85,9 +85,10 @@ ExitCode run(const MpiRequest& request, const Question& question) {
   DistributedResult result;
   for (std::size_t i = sink.done(); i < source.frame_count(); ++i) {
     const std::int64_t frame = source.read(i, fibers);
-    engine.update(fibers.parts, fibers.names);
+    engine.update(fibers.parts, fibers.names, fibers.topology);
     fibers.parts = {};  // the engine has its own, and contacts need the memory
     fibers.names = {};
+    fibers.topology = {};
     engine.query(question.query, result);
     const FrameNumber number{source.has_frames(), frame};
     sink.write(number, fibers.fiber_names, result);

@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <iostream>
 #include <stdexcept>
 #include <utility>
 
 #include "fiber_proximity/io/file.hpp"
 #include "src/mpi/fiber_name_text.hpp"
 #include "src/mpi/gather_fibers.hpp"
+#include "src/mpi/global_joints.hpp"
 #include "src/text/quote.hpp"
 #include "src/tools/packed.hpp"
 #include "src/tools/read_input.hpp"
@@ -19,9 +21,13 @@ namespace {
 
 void pack_frame(std::vector<char>& bytes, const FiberFrame& frame) {
   pack(bytes, std::vector{frame.frame});
-  pack(bytes, frame.fibers.points());
-  pack(bytes, frame.fibers.offsets());
-  pack(bytes, frame.fibers.radii());
+  const FiberTopology topology = frame.fibers.topology();
+  pack(bytes, frame.fibers.given_points());
+  pack(bytes, frame.fibers.given_offsets());
+  pack(bytes, frame.fibers.given_radii());
+  pack(bytes, topology.closed);
+  pack(bytes, topology.joints);
+  pack(bytes, std::vector{topology.joint_tolerance.value_or(-1.0)});
   pack(bytes, text_of_names(frame.names));
 }
 
@@ -30,8 +36,14 @@ FiberFrame unpack_frame(const char*& next) {
   auto points = unpack<std::vector<Eigen::Vector3d>>(next);
   auto offsets = unpack<std::vector<std::uint32_t>>(next);
   auto radii = unpack<std::vector<double>>(next);
+  FiberTopology topology;
+  topology.closed = unpack<std::vector<std::uint8_t>>(next);
+  topology.joints = unpack<std::vector<std::int32_t>>(next);
+  if (const double tolerance = unpack<std::vector<double>>(next).front(); tolerance >= 0.0) {
+    topology.joint_tolerance = tolerance;
+  }
   return {number.front(),
-          {std::move(points), std::move(offsets), std::move(radii)},
+          {std::move(points), std::move(offsets), std::move(radii), topology},
           names_in_text(unpack<std::vector<char>>(next))};
 }
 
@@ -53,16 +65,7 @@ FiberSource::FiberSource(const Communicator& ranks, const std::string& path,
                          const ReadOptions& reading, FrameSharing sharing)
     : ranks_(ranks), alone_(MPI_COMM_SELF), path_(path) {
   if (!is_hdf5_name(path)) {
-    run_on_root(ranks_, [&] {
-      file_ = read_input("fiber_query_mpi", path, reading);
-      for (const FiberFrame& frame : file_.frames) {
-        if (frame.fibers.graph() != nullptr) {
-          throw FileError(path,
-                          "has fibres that are closed or joined: fiber_query takes them, the "
-                          "ranks of MPI take open fibres only");
-        }
-      }
-    });
+    run_on_root(ranks_, [&] { file_ = read_input("fiber_query_mpi", path, reading); });
     has_frames_ = ranks_.broadcast(file_.has_frames);
     frame_count_ = ranks_.broadcast(file_.frames.size());
     return;
@@ -78,11 +81,13 @@ FiberSource::FiberSource(const Communicator& ranks, const std::string& path,
 }
 
 std::int64_t FiberSource::read(std::size_t index, DistributedFibers& fibers) {
+  std::int64_t number = 0;
   if (reader_) {
-    return reader_->read(index, fibers);
+    number = reader_->read(index, fibers);
+    tell_of_lonely_joints(number, fibers);
+    return number;
   }
   fibers = {};
-  std::int64_t number = 0;
   if (ranks_.rank() == 0) {
     FiberFrame& frame = file_.frames[index];
     number = frame.frame;
@@ -94,6 +99,17 @@ std::int64_t FiberSource::read(std::size_t index, DistributedFibers& fibers) {
   }
   fibers.fiber_names = broadcast_names(ranks_, fibers.fiber_names);
   return ranks_.broadcast(number);
+}
+
+/// Tells of the first number of a joint that one point alone has, as readers of other files do.
+void FiberSource::tell_of_lonely_joints(std::int64_t number, const DistributedFibers& fibers) {
+  const std::optional<std::int32_t> lonely = find_lonely_joint(ranks_, fibers);
+  if (lonely && !is_lonely_told_) {
+    is_lonely_told_ = true;
+    std::cerr << "fiber_query_mpi: " << path_ << ": "
+              << (has_frames_ ? "frame " + std::to_string(number) + ": " : "") << "joint "
+              << *lonely << " is the number of one point alone: it joins nothing\n";
+  }
 }
 
 std::vector<char> FiberSource::pack(const WorkRange& range) {

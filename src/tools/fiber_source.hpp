@@ -56,6 +56,7 @@ class FiberSource {
 
  private:
   FiberFrame read_alone(std::uint64_t index) const;
+  void tell_of_lonely_joints(std::int64_t number, const DistributedFibers& fibers);
 
   const Communicator& ranks_;
   const Communicator alone_;  // this rank
@@ -64,6 +65,7 @@ class FiberSource {
   FiberFile file_;                                // of rank 0, otherwise
   bool has_frames_ = false;
   std::size_t frame_count_ = 0;
+  bool is_lonely_told_ = false;  // of a joint in a file of HDF5
 };
 
 /// Tells a file from others, and from itself before a change, for DistributedFileOptions::run.

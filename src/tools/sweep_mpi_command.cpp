@@ -36,8 +36,10 @@ using RankContacts = std::vector<DistributedMotionContact>;
 /// Whether all ranks have the same parts of both frames, of fibres of the same names.
 bool have_same_fibers(const Communicator& ranks, const DistributedFibers& x,
                       const DistributedFibers& y) {
-  return ranks.all(x.parts.offsets() == y.parts.offsets() && x.names == y.names &&
-                   x.fiber_names == y.fiber_names);
+  return ranks.all(x.parts.has_topology_of(y.parts) && x.names == y.names &&
+                   x.fiber_names == y.fiber_names && x.topology.closed == y.topology.closed &&
+                   x.topology.joints == y.topology.joints &&
+                   x.topology.joint_tolerance == y.topology.joint_tolerance);
 }
 
 /// Answers about the steps from frame to frame.
@@ -51,7 +53,7 @@ class RankSweeper {
   RankContacts contacts(NumberedFrame& from, const NumberedFrame& to) {
     if (have_same_fibers(ranks_, from.fibers, to.fibers)) {
       return contacts_between(from.fibers.parts, to.fibers.parts, from.fibers.names,
-                              request_.motion);
+                              from.fibers.topology, request_.motion);
     }
     // Fibres that come and go, or stand elsewhere in the file, are on rank 0 as they would be
     // without ranks.
@@ -72,7 +74,7 @@ class RankSweeper {
           std::transform(fibers.begin(), fibers.end(), parts.begin(), [](std::uint32_t fiber) {
             return FiberPart{fiber, 0};
           });
-          return contacts_between(x, y, parts, options);
+          return contacts_between(x, y, parts, {}, options);
         });
   }
 
@@ -83,9 +85,10 @@ class RankSweeper {
   }
 
   RankContacts contacts_between(const FiberAssembly& before, const FiberAssembly& after,
-                                const std::vector<FiberPart>& names, const MotionOptions& options) {
+                                const std::vector<FiberPart>& names, const FiberTopology& topology,
+                                const MotionOptions& options) {
     DistributedMotionResult result;
-    engine_.update_motion(before, after, names);
+    engine_.update_motion(before, after, names, topology);
     engine_.query_motion(options, result);
     return take_contacts(result, request_.new_only);
   }

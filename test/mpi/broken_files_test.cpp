@@ -13,42 +13,12 @@
 
 #include "fiber_proximity/mpi/distributed_files.hpp"
 #include "src/mpi/hdf5_file.hpp"
+#include "test/mpi/open_file.hpp"
 #include "test/mpi/scattered_fibers.hpp"
 #include "test/mpi/shared_folder.hpp"
 
 namespace fiber::test {
 namespace {
-
-/// A file of HDF5 that one rank changes.
-class OpenFile {
- public:
-  explicit OpenFile(const std::string& path)
-      : file_(H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose, "cannot be opened") {}
-
-  hid_t get() const { return file_.get(); }
-
-  void remove(const std::string& path) const {
-    require_success(H5Ldelete(file_.get(), path.c_str(), H5P_DEFAULT), "cannot be removed");
-  }
-
-  /// Another dataset in place of one.
-  template <class T>
-  void replace(const std::string& path, Hdf5Shape shape, const std::vector<T>& values) const {
-    remove(path);
-    const Hdf5Id dataset = create_dataset(file_.get(), path, hdf5_type(T()).file, shape);
-    write_rows(dataset.get(), hdf5_type(T()).memory, 0, shape, values.data());
-  }
-
-  template <class T>
-  void set(const std::string& path, std::uint64_t row, const std::vector<T>& values) const {
-    const Hdf5Id dataset = open_dataset(file_.get(), path);
-    write_rows(dataset.get(), hdf5_type(T()).memory, row, {1, values.size()}, values.data());
-  }
-
- private:
-  const QuietHdf5 quiet_;
-  Hdf5Id file_;
-};
 
 /// Three fibres of 4, 3 and 5 points, on rank 0.
 DistributedFibers three_fibers() {
@@ -65,11 +35,12 @@ DistributedFibers three_fibers() {
   return fibers;
 }
 
-void write_fibers_to(const std::string& path, const DistributedFileOptions& options = {}) {
+void write_fibers_to(const std::string& path, const DistributedFileOptions& options = {},
+                     const DistributedFibers& fibers = three_fibers()) {
   DistributedFiberWriter writer(MPI_COMM_WORLD, path, options);
-  writer.write(0, three_fibers());
+  writer.write(0, fibers);
   if (options.has_frames) {
-    writer.write(1, three_fibers());
+    writer.write(1, fibers);
   }
   writer.finish();
 }
@@ -111,6 +82,65 @@ struct Damage {
   std::string error;
 };
 
+/// Damages a file, and reads it.
+void expect_result_of(const Damage& damage, const std::string& path) {
+  SCOPED_TRACE(damage.what);
+  on_rank_0([&] { damage.change(OpenFile(path)); });
+  if (damage.error == "no error") {
+    EXPECT_EQ(error_of_reading(path), damage.error);
+    MPI_Barrier(MPI_COMM_WORLD);
+  } else {
+    expect_refused(path, damage.error);
+  }
+}
+
+TEST(BrokenFiles, WhatIsWrongWithJointsIsSaid) {
+  const SharedFolder folder;
+  const std::string path = folder / "broken.h5";
+  DistributedFibers fibers = three_fibers();
+  if (own_rank() == 0) {
+    fibers.topology.closed = {0, 1, 0};
+    fibers.topology.joints = {3, -1, -1, 4, -1, 4, -1, 3, -1, -1, -1, -1};
+    fibers.topology.joint_tolerance = 0.5;
+  }
+  const std::string joints = "VTKHDF/PointData/joint";
+  const std::string closed = "VTKHDF/CellData/closed";
+  const std::vector<Damage> damages{
+      {"nothing", [](const OpenFile&) {}, "no error"},
+      {"no joints", [&](const OpenFile& file) { file.remove(joints); },
+       "dataset joint cannot be read"},
+      {"none closed", [&](const OpenFile& file) { file.remove(closed); },
+       "dataset closed cannot be read"},
+      {"fewer joints",
+       [&](const OpenFile& file) {
+         file.replace<std::int64_t>(joints, {11, 1}, std::vector<std::int64_t>(11, -1));
+       },
+       "dataset joint has 11 rows of 1 values, it must have 12 rows of 1 value"},
+      {"more that are closed",
+       [&](const OpenFile& file) {
+         file.replace<std::uint8_t>(closed, {4, 1}, {0, 0, 0, 0});
+       },
+       "dataset closed has 4 rows of 1 values, it must have 3 rows of 1 value"},
+      {"a large joint",
+       [&](const OpenFile& file) { file.set<std::int64_t>(joints, 5, {2147483648}); },
+       "point 5 has the joint 2147483648, joints are numbers from 0 to 2147483647, -1 for none"},
+      {"a negative joint", [&](const OpenFile& file) { file.set<std::int64_t>(joints, 7, {-2}); },
+       "point 7 has the joint -2, joints are numbers"},
+      {"half closed", [&](const OpenFile& file) { file.set<std::uint8_t>(closed, 2, {7}); },
+       "line 2 has closed 7, it must be 0 or 1"},
+      {"a negative tolerance",
+       [](const OpenFile& file) {
+         H5Adelete(file.get(), "joint_tolerance");
+         write_real(file.get(), "joint_tolerance", -0.5);
+       },
+       "joint_tolerance is -0.5 m, it must be at least 0"},
+  };
+  for (const Damage& damage : damages) {
+    write_fibers_to(path, {}, fibers);
+    expect_result_of(damage, path);
+  }
+}
+
 TEST(BrokenFiles, WhatIsWrongInOneIsSaid) {
   const SharedFolder folder;
   const std::string path = folder / "broken.h5";
@@ -128,9 +158,14 @@ TEST(BrokenFiles, WhatIsWrongInOneIsSaid) {
       {"another version",
        [](const OpenFile& file) {
          H5Adelete(file.get(), "version");
-         write_numbers(file.get(), "version", {2});
+         write_numbers(file.get(), "version", {3});
        },
-       "has a layout of version 2, known is 1"},
+       "has a layout of version 3, known are 1 and 2"},
+      {"a dataset of joints in a file of the first version",
+       [](const OpenFile& file) {
+         create_dataset(file.get(), "VTKHDF/PointData/joint", hdf5_type(double()).file, {1, 1});
+       },
+       "no error"},
       {"no group", [](const OpenFile& file) { file.remove("VTKHDF"); },
        "group VTKHDF cannot be read"},
       {"no radii", [](const OpenFile& file) { file.remove("VTKHDF/PointData/radius"); },
@@ -213,15 +248,8 @@ TEST(BrokenFiles, WhatIsWrongInOneIsSaid) {
        "point 5 has the radius -1, radii must be finite, at least 0"},
   };
   for (const Damage& damage : damages) {
-    SCOPED_TRACE(damage.what);
     write_fibers_to(path);
-    on_rank_0([&] { damage.change(OpenFile(path)); });
-    if (damage.error == "no error") {
-      EXPECT_EQ(error_of_reading(path), damage.error);
-      MPI_Barrier(MPI_COMM_WORLD);
-    } else {
-      expect_refused(path, damage.error);
-    }
+    expect_result_of(damage, path);
   }
 }
 

@@ -15,8 +15,11 @@
 #include "src/io/radii.hpp"
 #include "src/mpi/communicator.hpp"
 #include "src/mpi/fiber_runs.hpp"
+#include "src/mpi/gather_fibers.hpp"
+#include "src/mpi/hdf5_file.hpp"
 #include "test/mpi/scattered_fibers.hpp"
 #include "test/mpi/shared_folder.hpp"
+#include "test/support/joined_fibers.hpp"
 #include "test/support/random.hpp"
 
 namespace fiber {
@@ -70,6 +73,11 @@ FiberAssembly random_assembly(test::Random& random) {
   return {std::move(points), std::move(offsets), std::move(radii)};
 }
 
+std::int64_t version_of(const std::string& path) {
+  const Communicator ranks(MPI_COMM_WORLD);
+  return read_number(open_parallel_file(ranks, path).get(), "version").value_or(0);
+}
+
 std::string bytes_of(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
@@ -98,6 +106,45 @@ TEST(DistributedFiles, FibersComeBackAsTheyWere) {
     ASSERT_GE(read.parts.segment_count(), all / size);
     ASSERT_LE(read.parts.segment_count(), all / size + 1);
   }
+}
+
+/// The fibres of all ranks, whole, on rank 0; none on the others.
+FiberAssembly whole_on_root(const DistributedFibers& fibers) {
+  return gather_fibers(Communicator(MPI_COMM_WORLD), fibers).fibers;
+}
+
+TEST(DistributedFiles, ClosedAndJoinedFibersComeBackAsTheyWere) {
+  const test::SharedFolder folder;
+  test::Random random(24);
+  for (int round = 0; round < 20; ++round) {
+    SCOPED_TRACE(round);
+    test::JoinedFibers fibers = test::random_joined_fibers(random);
+    if (random.chance(0.5)) {
+      fibers.topology.joint_tolerance = 0.1;
+    }
+    const FiberAssembly assembly = fibers.assembly();
+    const std::string path = folder / "fibers.h5";
+    DistributedFiberWriter writer(MPI_COMM_WORLD, path);
+    writer.write(0, random_parts(random, assembly, round % 4));
+    writer.finish();
+    ASSERT_EQ(version_of(path), 2);
+    DistributedFibers read;
+    DistributedFiberReader(MPI_COMM_WORLD, path).read(0, read);
+    const FiberAssembly whole = whole_on_root(read);
+    const bool is_root = test::own_rank() == 0;
+    EXPECT_TRUE(!is_root || whole.has_topology_of(assembly));
+    EXPECT_TRUE(!is_root || whole.given_points() == assembly.given_points());
+    EXPECT_TRUE(!is_root || whole.topology().joint_tolerance == fibers.topology.joint_tolerance);
+    for (std::size_t fiber = 0; is_root && fiber < assembly.fiber_count(); ++fiber) {
+      for (std::uint32_t p = assembly.offsets()[fiber]; p < assembly.offsets()[fiber + 1]; ++p) {
+        EXPECT_EQ(whole.radius_at(fiber, p), assembly.radius_at(fiber, p));
+      }
+    }
+  }
+  DistributedFiberWriter writer(MPI_COMM_WORLD, folder / "chains.h5");
+  writer.write(0, random_parts(random, random_assembly(random), 2));
+  writer.finish();
+  EXPECT_EQ(version_of(folder / "chains.h5"), 1) << "for programs that know of no joints";
 }
 
 TEST(DistributedFiles, NamesComeBackOnAllRanks) {
@@ -144,7 +191,8 @@ TEST(DistributedFiles, WholeFibersMakeTheSameFileOfAnyRanks) {
   test::Random random(22);
   for (int round = 0; round < 10; ++round) {
     SCOPED_TRACE(round);
-    const FiberAssembly assembly = random_assembly(random);
+    const FiberAssembly assembly =
+        round % 2 == 0 ? random_assembly(random) : test::random_joined_fibers(random).assembly();
     // In the order of fibres, cut where the random numbers say.
     std::vector<test::ScatteredPart> parts;
     const auto ranks = static_cast<std::uint32_t>(test::rank_count());

@@ -49,6 +49,8 @@ if(TARGET fiber_proximity_mpi)
   add_test(NAME fiber_query_mpi_check_test
     COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/mpi/fiber_query_mpi_check_test.sh $<TARGET_FILE_DIR:fiber_query_mpi>
       ${start_ranks})
+  add_test(NAME joined_files_test
+    COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/mpi/joined_files_test.sh $<TARGET_FILE_DIR:fiber_query_mpi> ${start_ranks})
   add_test(NAME outputs_test
     COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/mpi/outputs_test.sh $<TARGET_FILE_DIR:fiber_query_mpi> ${start_ranks})
   add_test(NAME fiber_scene_mpi_test

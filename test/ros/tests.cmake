@@ -45,6 +45,7 @@ fiber_proximity_gtest(detector_test
   ros/budget_test.cpp
   ros/detector_test.cpp
   ros/fiber_step_test.cpp
+  ros/uncertain_motion_test.cpp
   ros/uncertainty_test.cpp
   COLD
   HEADERS graph_test_headers

@@ -1,6 +1,7 @@
 // The running node with an input whose points are known to 10 mm, and an exact one: all answers
 // have room for it. The margin is 20 mm.
 #include <array>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -120,7 +121,6 @@ TEST_F(UncertaintyNodeTest, ContactsArePossibleOrCertain) {
   EXPECT_NEAR(answer_->minimum_lower, -0.005, tiny);
   EXPECT_NEAR(answer_->minimum_upper, 0.015, tiny);
   EXPECT_TRUE(answer_->complete);
-  EXPECT_FALSE(answer_->continuous) << "when told points came is not when true ones did";
   const fiber_proximity::Statistics* const told = statistics.wait_for(stamp_);
   ASSERT_NE(told, nullptr);
   EXPECT_NEAR(told->contact_error, uncertainty, tiny);
@@ -132,6 +132,35 @@ TEST_F(UncertaintyNodeTest, ContactsArePossibleOrCertain) {
   ASSERT_EQ(around->contacts.size(), 1U);
   expect_bounds(around->contacts.front(), 0.015, uncertainty, false);
   EXPECT_NEAR(around->minimum_lower, 0.005, tiny);
+}
+
+TEST_F(UncertaintyNodeTest, WhatCameAndWentWasPossibleOrCertain) {
+  // One goes through a known cable, the other passes over one with a gap of 25 mm.
+  const double above = 0.025 + 2 * radius;
+  ASSERT_NE(answer_to(cables({{0.5, 0.0}, {1.5, above}})), nullptr);
+  const ContactArray* const told = answer_to(cables({{-0.5, 0.0}, {0.5, above}}));
+  ASSERT_NE(told, nullptr);
+  ASSERT_TRUE(told->continuous);
+  const Contact* const certain = find(told->contacts, 0, 2);
+  const Contact* const possible = find(told->contacts, 1, 4);
+  ASSERT_NE(certain, nullptr);
+  ASSERT_NE(possible, nullptr);
+  EXPECT_TRUE(certain->gone);
+  EXPECT_TRUE(certain->certain);
+  EXPECT_TRUE(possible->gone);
+  EXPECT_FALSE(possible->certain);
+  const auto part = [told](const ros::Time& time) {
+    return (time - told->since).toSec() / (told->header.stamp - told->since).toSec();
+  };
+  // The told gap is 30 mm, which leaves room for the margin, at y = 50 mm, and 10 mm at y = 30 mm.
+  constexpr double rounding = 1e-5;  // of whole nanoseconds
+  EXPECT_NEAR(part(certain->time_lower), 0.45, rounding);
+  EXPECT_NEAR(part(certain->time_upper), 0.47, rounding);
+  EXPECT_NEAR(certain->distance, 0.01, 1e-5) << "at time_upper, by the tolerance";
+  EXPECT_NEAR(certain->upper, certain->distance + uncertainty, tiny);
+  const double first = std::sqrt(0.05 * 0.05 - above * above);
+  EXPECT_NEAR(part(possible->time_lower), 0.5 - first, rounding);
+  EXPECT_NEAR(part(possible->time_upper), 0.5 + first, rounding) << "when it was possible last";
 }
 
 TEST_F(UncertaintyNodeTest, ShapesAndCandidatesAreAnsweredForAllTrueFibers) {

@@ -15,6 +15,7 @@
 #include "fiber_proximity/environment/environment.hpp"
 #include "src/ros/detection/detector.hpp"
 #include "test/environment/random_shapes.hpp"
+#include "test/ros/uncertain_fibers.hpp"
 #include "test/support/answers.hpp"
 #include "test/support/assemblies.hpp"
 #include "test/support/random.hpp"
@@ -29,50 +30,14 @@ using fiber::QueryResult;
 using fiber::QueryType;
 using fiber::test::Random;
 using Bodies = Uncertainty::Bodies;
+using uncertain_fibers::random_uncertainties;
+using uncertain_fibers::true_fibers;
+using uncertain_fibers::Truth;
+using uncertain_fibers::truths;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::array types{QueryType::FIRST, QueryType::CLOSEST, QueryType::LIMITED, QueryType::ALL,
                            QueryType::FIBER_PAIRS};
-
-/// Of two inputs, the second of which is exact, or of several.
-std::vector<double> random_uncertainties(Random& random, std::size_t count) {
-  std::vector<double> of_fibers(count);
-  for (double& each : of_fibers) {
-    each = random.chance(0.3) ? 0.0 : random.uniform(0.0, 0.1);
-  }
-  return of_fibers;
-}
-
-/// How true points may be off from the told ones.
-enum class Truth { ANYWHERE, NEARER, FURTHER };
-constexpr std::array truths{Truth::ANYWHERE, Truth::NEARER, Truth::FURTHER};
-
-/// @param aimed_at of NEARER and FURTHER: the pair whose points move straight at each other or
-/// apart;
-///                 its body b moves only where it is a fibre
-FiberAssembly true_fibers(Random& random, const FiberAssembly& told,
-                          const std::vector<double>& uncertainties, Truth truth,
-                          const Contact& aimed_at, bool is_b_fiber) {
-  constexpr double within = 1.0 - 1e-12;  // rounding of the sums included
-  const double sign = truth == Truth::NEARER ? 1.0 : -1.0;
-  std::vector<Eigen::Vector3d> points = told.points();
-  for (std::uint32_t fiber = 0; fiber < told.fiber_count(); ++fiber) {
-    const std::uint32_t begin = told.offsets()[fiber];
-    for (std::uint32_t point = begin; point < told.offsets()[fiber + 1]; ++point) {
-      const double most = within * uncertainties[fiber];
-      const std::uint32_t index = point - begin;
-      if (truth == Truth::ANYWHERE) {
-        points[point] += random.uniform(0.0, most) * random.direction();
-      } else if (fiber == aimed_at.fiber_a &&
-                 (index == aimed_at.segment_a || index == aimed_at.segment_a + 1)) {
-        points[point] += sign * most * aimed_at.normal;
-      } else if (is_b_fiber && fiber == aimed_at.fiber_b) {
-        points[point] -= sign * most * aimed_at.normal;
-      }
-    }
-  }
-  return fiber::test::with_points(told, points);
-}
 
 /// What was told about the told points.
 struct Told {

@@ -63,7 +63,8 @@ class DistributedFileWriter {
 ///
 /// In the file, parts stand in the order of ranks, and within a rank as they are brought. Where one
 /// begins at the segment, the point and the radius at which the one before it ends, the two become
-/// one: a file does not tell how whole fibres in their order were spread over ranks.
+/// one: a file does not tell how whole fibres in their order were spread over ranks. Closed and
+/// joined fibres stay what they are.
 class DistributedFiberWriter : public DistributedFileWriter {
  public:
   /// @throws std::invalid_argument where files cannot be written, and where those of an earlier run
@@ -74,8 +75,8 @@ class DistributedFiberWriter : public DistributedFileWriter {
   /// Writes the next frame: once this returns, it is whole.
   /// @param frame its number, if frames have one
   /// @throws std::invalid_argument for a second frame without numbers, a number of an earlier
-  ///         frame, other than one name per part, fibres that fiber_names has none for, and where
-  ///         the file cannot be written
+  ///         frame, other than one name per part, fibres that fiber_names has none for, a topology
+  ///         that is not of these parts, and where the file cannot be written
   void write(std::int64_t frame, const DistributedFibers& fibers);
 };
 
@@ -92,7 +93,7 @@ class DistributedFiberReader {
   bool has_frames() const;
   std::size_t frame_count() const;
 
-  /// Reads this rank's part of a frame.
+  /// Reads this rank's part of a frame. What is closed or joined is in its topology.
   /// @param index below frame_count()
   /// @return the number of the frame; 0 if frames have none
   /// @throws std::invalid_argument naming what is wrong in the file

@@ -34,16 +34,6 @@ struct RodForces {
     double max_force;        ///< with which the hold pulls at most [N]
   };
 
-  /// The force and moment of a joint on one of its nodes.
-  struct JointForce {
-    std::uint32_t joint;  ///< as Joints::add() calls it
-    std::uint32_t rod;
-    std::uint32_t node;      ///< from the rod's first one
-    Eigen::Vector3d point;   ///< the place of the joint [m]
-    Eigen::Vector3d force;   ///< [N]
-    Eigen::Vector3d moment;  ///< about the place, of welds [N m]
-  };
-
   /// The share of a load that acts at a node and on the edge after it.
   struct LoadForce {
     std::uint32_t load;  ///< as Loads::add() counts them
@@ -52,6 +42,16 @@ struct RodForces {
     Eigen::Vector3d point;   ///< of the node [m]
     Eigen::Vector3d force;   ///< [N]
     Eigen::Vector3d moment;  ///< on the edge after the node [N m]
+  };
+
+  /// The force and moment of a joint on one of its nodes.
+  struct JointForce {
+    std::uint32_t joint;  ///< as Joints::add() calls it
+    std::uint32_t rod;
+    std::uint32_t node;      ///< from the rod's first one
+    Eigen::Vector3d point;   ///< the place of the joint [m]
+    Eigen::Vector3d force;   ///< [N]
+    Eigen::Vector3d moment;  ///< about the place, of welds [N m]
   };
 
   /// The force, by edge, with which the part of the rod after the edge pulls at the part before it,
@@ -67,8 +67,8 @@ struct RodForces {
 
   std::vector<ContactForce> contacts;
   std::vector<HoldForce> holds;
-  std::vector<JointForce> joints;  ///< those of a joint add up to 0
   std::vector<LoadForce> loads;
+  std::vector<JointForce> joints;  ///< those of a joint add up to 0
 };
 
 }  // namespace fiber

@@ -29,8 +29,7 @@ void EnvironmentDetector::detect(const fiber::QueryOptions& options, bool wants_
   motion_.reset();
   motion_time_ = 0.0;
   const bool was_tracked = std::exchange(is_tracked_, is_tracked);
-  // When something came is known of the told points only.
-  const bool is_asked = step != nullptr && was_tracked && is_tracked && uncertainty.is_none();
+  const bool is_asked = step != nullptr && was_tracked && is_tracked;
   is_motion_left_out_ = is_asked && !budget.allows(Stage::ENVIRONMENT_MOTION);
   if (is_asked && !is_motion_left_out_) {
     budget.enter(Stage::ENVIRONMENT_MOTION);

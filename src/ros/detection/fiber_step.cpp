@@ -28,6 +28,18 @@ void FiberStep::advance(FiberState newest) {
   }
 }
 
+std::vector<double> FiberStep::uncertainties() const {
+  std::vector<double> most = after_.uncertainties;
+  const std::vector<double>& before = before_.uncertainties;
+  if (!rests_ && before.size() > most.size()) {
+    most.resize(before.size(), 0.0);
+  }
+  for (std::size_t fiber = 0; !rests_ && fiber < before.size(); ++fiber) {
+    most[fiber] = std::max(most[fiber], before[fiber]);
+  }
+  return most;
+}
+
 void FiberStep::rest() {
   is_motion_ = false;
   rests_ = true;

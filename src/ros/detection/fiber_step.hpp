@@ -20,6 +20,7 @@ struct FiberState {
   std::shared_ptr<const FiberMessage> message = std::make_shared<const FiberMessage>();
   std::vector<std::optional<ros::Time>> stamps;  ///< by input, of those that are fresh
   ros::Time stamp;                               ///< the newest
+  std::vector<double> uncertainties;             ///< [m] by fibre; empty where there are none
 };
 
 /// The step from the fibres of one answer to those of the next: what moved meanwhile, and when.
@@ -56,6 +57,9 @@ class FiberStep {
   fiber::FiberMotion motion() const {
     return {rests_ ? after_.message->fibers : before_.message->fibers, after_.message->fibers};
   }
+
+  /// [m] By fibre, the larger of before and after; empty where none is uncertain.
+  std::vector<double> uncertainties() const;
 
   /// The time of the motion, from the oldest stamp before to the newest one after among the inputs
   /// that have moved. Without a motion both ends are the newest stamp of all.

@@ -16,13 +16,11 @@ void MotionDetector::take(InputSet& fibers, bool keeps_fibers) {
     newest.stamps.push_back(input->is_fresh() ? std::optional(input->stamp()) : std::nullopt);
   }
   newest.stamp = fibers.header().stamp;
+  newest.uncertainties = fibers.uncertainties();
   if (newest.has_fibers) {
     newest.message = fibers.message();
   }
   step_.advance(std::move(newest));
-  if (step_.is_motion() && !fibers.uncertainties().empty()) {
-    step_.refuse("when contacts came is not known of inputs with an uncertainty");
-  }
 }
 
 std::optional<KnownMotion> MotionDetector::detect(const fiber::QueryOptions& options,
@@ -38,8 +36,9 @@ std::optional<KnownMotion> MotionDetector::detect(const fiber::QueryOptions& opt
   if (step_.is_motion()) {
     try {
       budget.enter(Stage::MOTION);
-      motion.emplace(detect_motion_contacts(*engine_, {step_.motion(), step_.time(), tolerance},
-                                            options, reports_all, result_, budget));
+      motion.emplace(detect_motion_contacts(
+          *engine_, {step_.motion(), step_.time(), tolerance, step_.uncertainties()}, options,
+          reports_all, result_, budget));
     } catch (const std::invalid_argument& error) {
       step_.refuse(error.what());
     }

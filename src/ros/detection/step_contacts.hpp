@@ -19,9 +19,16 @@ struct ContinuousStep {
   fiber::FiberMotion motion;
   fiber::TimeBounds time;
   double tolerance;  ///< [m] see fiber::MotionOptions
+  /// [m] By fibre, see Uncertainty; empty where none is uncertain.
+  std::vector<double> uncertainties;
 };
 
 /// The result of a query about a motion.
+///
+/// Where fibres are uncertain, it is about true points that move linearly, and are within the
+/// uncertainty of the told ones at both ends. The contacts are then the possible ones: there is
+/// none before `lower`, and the certain ones are there by `upper`. Others may also come later, or
+/// not at all; their `upper` is when the told points are nearest to a contact first.
 struct KnownMotion {
   const fiber::MotionResult& result;
   std::function<fiber::Contact(const fiber::MotionContact&)> first_contact;
@@ -31,6 +38,7 @@ struct KnownMotion {
   /// Whether all contacts there are now were asked for and found, so that others are gone. If not,
   /// only those are that have parted.
   bool reports_all = true;
+  bool is_uncertain = false;  ///< whether fibres are
 };
 
 /// Finds what of the fibres came into contact with each other in a step. They must live, unchanged,
@@ -69,8 +77,9 @@ struct StepContact {
   };
   State state = State::THERE;
   fiber::Contact contact;
-  fiber::TimeBounds first;  ///< when in the step it first was there
-  fiber::TimeBounds last;   ///< unless it is there now: when it was for the last time
+  fiber::TimeBounds first;   ///< when in the step it first was there, if it was at all
+  fiber::TimeBounds last;    ///< unless it is there now: when it was for the last time
+  bool was_certain = false;  ///< unless it is there now: whether it was there at all
 
   auto key() const { return contact.key(); }
 };

@@ -83,8 +83,18 @@ double Uncertainty::of_pair(const fiber::SegmentIdPair& pair) const {
   return sum > 0.0 ? std::min(rounded_up(sum), max_) : 0.0;
 }
 
+double Uncertainty::possible_margin(double margin, const fiber::SegmentIdPair& pair) const {
+  const double by = of_pair(pair);
+  return by > 0.0 ? rounded_up(margin + by) : margin;
+}
+
 double Uncertainty::possible_margin(double margin) const {
   return is_none() ? margin : rounded_up(margin + max_);
+}
+
+double Uncertainty::certain_margin(double margin, const fiber::SegmentIdPair& pair) const {
+  const double by = of_pair(pair);
+  return by > 0.0 ? rounded_down(margin - by) : margin;
 }
 
 double Uncertainty::certain_margin(double margin) const {

@@ -36,11 +36,14 @@ class Uncertainty {
   /// [m] The most of all pairs.
   double max() const { return max_; }
 
-  /// [m] Pairs whose true gap may be within a margin are told to be within this one.
+  /// [m] Pairs whose true gap may be within a margin are told to be within this one: a pair, or
+  /// all.
+  double possible_margin(double margin, const fiber::SegmentIdPair& pair) const;
   double possible_margin(double margin) const;
 
   /// [m] Pairs that are told to be within this one have a true gap within the margin; may be below
   /// 0.
+  double certain_margin(double margin, const fiber::SegmentIdPair& pair) const;
   double certain_margin(double margin) const;
 
   /// Widens the bounds of the true gap.

@@ -83,6 +83,7 @@ void add_details(const StepContact& contact, const fiber::Touch& touch, nanoseco
   message.time_lower = to_stamp(std::max(contact.first.lower, since));
   message.time_upper = to_stamp(contact.first.upper);
   message.gone = contact.state != StepContact::State::THERE;
+  message.certain = message.gone ? contact.was_certain : message.certain;
 }
 
 }  // namespace

@@ -266,7 +266,8 @@ void AnswerPipeline::detect_in_environment() {
   const bool is_tracked = environment_contacts_.has_listeners();
   // Objects may have moved where fibres have not.
   const FiberStep& fiber_step = motion_.step();
-  const ContinuousStep step{fiber_step.motion(), fiber_step.time(), config.motion_tolerance};
+  const ContinuousStep step{fiber_step.motion(), fiber_step.time(), config.motion_tolerance,
+                            fiber_step.uncertainties()};
   budget_.enter(Stage::ENVIRONMENT);
   environment_.detect(query, config.minimum_distance,
                       fiber_step.is_motion() || fiber_step.rests() ? &step : nullptr, is_tracked,
