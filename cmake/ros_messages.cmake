@@ -42,6 +42,7 @@ add_message_files(FILES
   HoldForce.msg
   HoldTrajectory.msg
   InputStatistics.msg
+  JointForce.msg
   Obstacle.msg
   ObstacleArray.msg
   PredictedContact.msg

@@ -45,10 +45,12 @@ fiber_proximity_component(sim fiber_proximity_sim)
 # The files of scenes: compiled apart, as nothing in them takes time.
 add_library(sim_scene OBJECT
   src/sim/scene/effect_keys.cpp
+  src/sim/scene/cut_curve.cpp
   src/sim/scene/effects.cpp
   src/sim/scene/fibers.cpp
   src/sim/scene/force_file.cpp
   src/sim/scene/holds.cpp
+  src/sim/scene/joints.cpp
   src/sim/scene/keys.cpp
   src/sim/scene/loads.cpp
   src/sim/scene/named_nodes.cpp

@@ -18,6 +18,7 @@ add_library(validation_sim STATIC
   validation/sim/elastica.cpp
   validation/sim/friction_scenes.cpp
   validation/sim/instability.cpp
+  validation/sim/joints.cpp
   validation/sim/loads.cpp
   validation/sim/motion.cpp
   validation/sim/statics.cpp

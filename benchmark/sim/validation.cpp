@@ -6,6 +6,7 @@
 #include "validation/sim/elastica.hpp"
 #include "validation/sim/friction_scenes.hpp"
 #include "validation/sim/instability.hpp"
+#include "validation/sim/joints.hpp"
 #include "validation/sim/loads.hpp"
 #include "validation/sim/motion.hpp"
 #include "validation/sim/statics.hpp"
@@ -108,6 +109,24 @@ void validate_loads(const Report& report) {
   }
 }
 
+void validate_joints(const Report& report) {
+  constexpr double thousandth = 0.001;
+  for (const double weight : {20.0, 100.0, 500.0}) {
+    const HungRing theory = exact_hung_ring(weight);
+    const HungRing ring = simulated_hung_ring(weight, segments);
+    const std::string scene = text("ρAgL³/EI", weight);
+    report({"ring, own weight", scene, "drop / L", segments, theory.drop, ring.drop, half_percent});
+    report(
+        {"ring, own weight", scene, "width / L", segments, theory.width, ring.width, half_percent});
+  }
+  const auto theory = exact_truss();
+  const auto truss = simulated_truss();
+  report(
+      {"truss of two bars", "the long one", "pull / weight", 1, theory[0], truss[0], thousandth});
+  report(
+      {"truss of two bars", "the short one", "pull / weight", 1, theory[1], truss[1], thousandth});
+}
+
 void validate_motion(const Report& report) {
   struct Mode {
     const char* name;
@@ -201,6 +220,7 @@ void validate_simulation(const Report& report) {
   validate_cantilevers(report);
   validate_catenaries(report);
   validate_loads(report);
+  validate_joints(report);
   validate_motion(report);
   validate_instability(report);
   validate_friction(report);

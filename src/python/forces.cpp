@@ -15,6 +15,7 @@ struct Forces : OnlyShared {
   py::array twisting_moments;
   py::array contacts;
   py::array holds;
+  py::array joints;
   py::array loads;
 };
 
@@ -60,12 +61,26 @@ py::dtype load_force_dtype() {
                     sizeof(Force));
 }
 
+py::dtype joint_force_dtype() {
+  using Force = RodForces::JointForce;
+  const Force force{};
+  const auto at = [&](auto member) { return offset_of(force, member); };
+  return make_dtype({{"joint", "u4", at(&Force::joint)},
+                     {"fiber", "u4", at(&Force::rod)},
+                     {"node", "u4", at(&Force::node)},
+                     {"point", "(3,)f8", at(&Force::point)},
+                     {"force", "(3,)f8", at(&Force::force)},
+                     {"moment", "(3,)f8", at(&Force::moment)}},
+                    sizeof(Force));
+}
+
 Forces::Forces(RodForces& forces)
     : tensions(to_array(forces.tensions)),
       bending_moments(to_array(forces.bending_moments)),
       twisting_moments(to_array(forces.twisting_moments)),
       contacts(to_array(contact_force_dtype(), forces.contacts)),
       holds(to_array(hold_force_dtype(), forces.holds)),
+      joints(to_array(joint_force_dtype(), forces.joints)),
       loads(to_array(load_force_dtype(), forces.loads)) {}
 
 }  // namespace
@@ -90,6 +105,10 @@ void bind_forces(py::module& module) {
                     "(m,) with the fields fiber, segment, other_fiber (2**32 - 1: an object), "
                     "other_segment, object, point [m], normal_force and friction_force [N] on the "
                     "fibre.")
+      .def_readonly("joints", &Forces::joints,
+                    "(m,) with the fields joint, as the scene counts them from 0, fiber, node, "
+                    "point [m], force [N] and moment [N m] of the joint on the fibre: those of a "
+                    "joint add up to 0.")
       .def_readonly("holds", &Forces::holds,
                     "(m,) with the fields fiber, node, point [m], force [N] and moment [N m] on "
                     "the fibre, lag [m] behind where the hold pulls it, max_force [N].")

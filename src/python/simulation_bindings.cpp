@@ -129,7 +129,7 @@ void set_parameters(Simulation& simulation, const py::dict& values) {
 std::shared_ptr<Fibers> fibers_of(const Simulation& simulation) {
   return std::make_shared<Fibers>(simulation.with([](SimScene& scene) {
     const Rods& rods = scene.stepper->rods();
-    return FiberAssembly(rods.positions, rods.offsets, rods.radii);
+    return assembly_of(rods);
   }));
 }
 
@@ -267,7 +267,8 @@ void bind_simulation(py::module& module) {
                              "Parameters of the effects that may change: a dict.")
       .def_property_readonly("positions",
                              points_by([](const Rods& rods) { return rods.positions; }),
-                             "(n, 3) float64 [m]: where the points are, a copy.")
+                             "(n, 3) float64 [m]: where the points are, a copy; of a closed fibre "
+                             "the first one again behind its last.")
       .def_property_readonly("velocities",
                              points_by([](const Rods& rods) { return rods.velocities; }),
                              "(n, 3) float64 [m/s]: how they move, a copy.")

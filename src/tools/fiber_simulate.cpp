@@ -193,7 +193,7 @@ ExitCode run(const Request& request) {
     std::cerr << "warning: " << omission << '\n';
   }
   const Rods& rods = scene.stepper->rods();
-  FiberFrame frame{0, FiberAssembly(rods.positions, rods.offsets, rods.radii)};
+  FiberFrame frame{0, assembly_of(rods)};
   FiberWriter writer(request.out, true);
   writer.write(frame, 0.0);
   std::optional<ForceWriter> forces;

@@ -60,6 +60,25 @@ class Simulations(unittest.TestCase):
         simulation.step(1)
         np.testing.assert_array_equal(simulation.forces.loads['force'], [[0, 2, 0]])
 
+    def test_a_ring_hangs_from_a_cable(self):
+        ring = {'name': 'ring', 'material': 'silicone_tube', 'radius': 0.005, 'segments': 16, 'closed': True,
+                'shape': {'polyline': [[1, 0, 1], [1.2, 0, 1], [1.2, 0, 0.8], [1, 0, 0.8]]}}
+        joint = {'joint': [{'nodes': [{'fiber': 'cable', 'node': 'last'}, {'fiber': 'ring'}]}]}
+        simulation = fp.Simulation({'fibers': [CABLE, ring], 'effects': ['gravity', 'stretch', 'bend', joint, 'attachment']})
+        simulation.attach('cable', 0, [0, 0, 1])
+        simulation.step(10)
+        joints = simulation.forces.joints
+        self.assertEqual(joints.dtype.names, ('joint', 'fiber', 'node', 'point', 'force', 'moment'))
+        self.assertEqual((joints['joint'].tolist(), joints['fiber'].tolist(), joints['node'].tolist()),
+                         ([0, 0], [0, 1], [20, 0]))
+        np.testing.assert_allclose(joints['force'][0], -joints['force'][1], atol=1e-9)
+        self.assertEqual(simulation.positions.shape, (38, 3))
+        np.testing.assert_array_equal(simulation.positions[20], simulation.positions[21])
+        np.testing.assert_array_equal(simulation.positions[21], simulation.positions[37])
+        fibers = simulation.fibers
+        self.assertEqual(fibers.closed.tolist(), [False, True])
+        self.assertEqual(fibers.joints[20], fibers.joints[21])
+
     def test_a_file_is_a_dict(self):
         config = pathlib.Path(__file__).resolve().parents[2] / 'config' / 'sim' / 'hanging_cable.yaml'
         from_file = fp.Simulation(config, threads=1)

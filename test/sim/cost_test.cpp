@@ -147,6 +147,23 @@ MakeContacts contacts_of_everything() {
 }
 
 /// Whatever else the program makes of effects that a scene does not name.
+/// What a scene takes that joins nothing, whatever others there are.
+TEST(Cost, JointsOfOtherScenesCostNothing) {
+  const auto unjoined = [] { return memory_of([] { simulate(stacked(6, 12, 0.1), base); }); };
+  unjoined();  // what is made once for all
+  const Memory before = unjoined();
+  Rods rods = stacked(1, 12, 0.1);
+  rods.add(straight(rods.positions.back(), {1.0, 0.0, 0.0}, 12), 0.005, rubber(0.005));
+  auto joints = std::make_unique<Joints>(Joints::Options{});
+  joints->add(rods, {Joints::Kind::WELD, {{0, 12}, {1, 0}}});
+  Stepper stepper(std::move(rods), elastic(standard_gravity), one_thread(), nullptr,
+                  std::move(joints));
+  stepper.step(step);
+  EXPECT_EQ(unjoined(), before);
+  EXPECT_TRUE(stacked(1, 12, 0.1).joints.empty());
+  EXPECT_TRUE(stacked(1, 12, 0.1).closed.empty());
+}
+
 TEST(Cost, OfAnEffectThatAnotherSceneNamesIsNothing) {
   const auto plain = [] { simulate(stacked(3, 20, 0.1), base); };
   plain();  // threads and the like are made once

@@ -174,6 +174,8 @@ class Damping : public LaneEffect {
   /// @throws std::invalid_argument if the time is negative or not finite
   explicit Damping(double relaxation_time, bool is_beside_bend = false);
 
+  double relaxation_time() const { return relaxation_time_; }  ///< [s]
+
   void begin_step(Rods& rods, const TimeStep& step) override;
   bool is_stored() const override { return false; }
   NodeData per_node_data() const override { return {earlier_.data(), per_node_}; }

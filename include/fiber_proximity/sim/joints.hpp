@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "fiber_proximity/sim/effect.hpp"
 
 namespace fiber {
@@ -15,6 +16,7 @@ struct JointNode {
 };
 
 struct JointParts;
+class Damping;
 
 /// Joints of rods with each other or with themselves: nodes that are one place.
 ///
@@ -46,12 +48,11 @@ class Joints {
 
   /// How welds and closed rods resist what is bent or twisted there.
   struct Options {
-    bool has_bend = true;          ///< as with the effect Bend
-    double relaxation_time = 0.0;  ///< that of the effect Damping, 0 without [s]
+    bool has_bend = true;                    ///< as with the effect Bend
+    std::shared_ptr<const Damping> damping;  ///< the effect, null without
   };
 
-  /// @throws std::invalid_argument for a relaxation time that is negative or not finite
-  explicit Joints(const Options& options);
+  explicit Joints(Options options);
   ~Joints();
   Joints(const Joints&) = delete;
   Joints& operator=(const Joints&) = delete;
@@ -96,5 +97,8 @@ class Joints {
   std::vector<Joint> joints_;
   std::unique_ptr<JointParts> parts_;
 };
+
+/// Rods as fibres, closed and joined as they are.
+FiberAssembly assembly_of(const Rods& rods);
 
 }  // namespace fiber

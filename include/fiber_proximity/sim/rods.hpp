@@ -120,6 +120,11 @@ struct Rods : RodState {
 
   bool is_closed(std::uint32_t rod) const { return !closed.empty() && closed[rod] != 0; }
 
+  /// The nodes of a rod without that of a closed one which is its first one again.
+  std::uint32_t given_node_count(std::uint32_t rod) const {
+    return node_count(rod) - (is_closed(rod) ? 1 : 0);
+  }
+
   /// Length at rest that belongs to an inner node: half of each of its edges [m].
   double rest_length_at(std::uint32_t node) const {
     return 0.5 * (rest_lengths[node - 1] + rest_lengths[node]);

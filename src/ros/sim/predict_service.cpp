@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "fiber_proximity/ros/conversions.hpp"
+#include "fiber_proximity/sim/joints.hpp"
 #include "fiber_proximity/sim/scene/prediction.hpp"
 #include "src/ros/environment/obstacle_change.hpp"
 #include "src/ros/support/stopwatch.hpp"
@@ -84,12 +85,12 @@ fiber_proximity::PredictedForce message_of(const fiber::GreatestForce& force) {
 }
 
 void fill_in(const fiber::Prediction& told, const SceneCopy& copy, Response& response) {
-  const fiber::Rods& rods = copy.scene.stepper->rods();
+  fiber::FiberAssembly then = fiber::assembly_of(copy.scene.stepper->rods());
   for (const fiber::Prediction::Sample& sample : told.samples) {
     response.sample_times.push_back(sample.time);
     fiber_proximity::FiberArray& fibers = response.samples.emplace_back();
-    to_message(fiber::FiberAssembly(sample.positions, rods.offsets, rods.radii),
-               copy.scene.fiber_names, fibers);
+    then.update_points(sample.positions);
+    to_message(then, copy.scene.fiber_names, fibers);
     fibers.header = copy.header;
     fibers.header.stamp += ros::Duration(sample.time);
   }

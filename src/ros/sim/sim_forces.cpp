@@ -107,6 +107,16 @@ void fill_in(const fiber::SimScene& scene, const fiber::RodForces& forces,
     hold.lag = force.lag;
     hold.max_force = force.max_force;
   }
+  message.joints.clear();
+  for (const fiber::RodForces::JointForce& force : forces.joints) {
+    fiber_proximity::JointForce& joint = message.joints.emplace_back();
+    joint.joint = force.joint;
+    joint.fiber = force.rod;
+    joint.node = force.node;
+    joint.point = to_message(force.point);
+    joint.force = to_vector_message(force.force);
+    joint.moment = to_vector_message(force.moment);
+  }
   const fiber::IslandReport& worst = scene.stepper->report().worst;
   message.residual = worst.residual;
   message.residual_fiber = worst.rod;
@@ -246,8 +256,7 @@ void SimForces::publish(const fiber::SimScene& scene, const std_msgs::Header& he
 void SimForces::draw(const fiber::SimScene& scene, const fiber::RodForces& forces,
                      const std_msgs::Header& header) {
   const fiber::Rods& rods = scene.stepper->rods();
-  const MarkerScale scale(fiber::FiberAssembly(rods.positions, rods.offsets, rods.radii),
-                          header.frame_id);
+  const MarkerScale scale(fiber::assembly_of(rods), header.frame_id);
   double tension = 0.0;
   for (const double each : forces.tensions) {
     tension = std::max(tension, std::abs(each));

@@ -56,8 +56,10 @@ void SimMarkers::begin(const fiber::SimScene& scene) {
   const fiber::Rods& rods = scene.stepper->rods();
   for (std::uint32_t rod = 0; rod < std::min(max_fibers, rods.count()); ++rod) {
     const std::string& fiber = scene.fiber_names[rod];
-    for (const auto& [name, node] : {std::make_pair(fiber + "/first", 0U),
-                                     std::make_pair(fiber + "/last", rods.node_count(rod) - 1)}) {
+    // The last node of a closed fibre is its first one.
+    for (const auto& [name, node] :
+         {std::make_pair(fiber + "/first", 0U),
+          std::make_pair(fiber + "/last", rods.given_node_count(rod) - 1)}) {
       ends_[name] = {rod, node};
       server_.insert(
           handle(name, scene.frame_id, rods.radii[rod], rods.positions[rods.first(rod) + node]),

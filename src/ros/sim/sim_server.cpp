@@ -204,8 +204,7 @@ void SimServer::warn() {
 
 void SimServer::publish() {
   const fiber::Rods& rods = scene_.stepper->rods();
-  to_message(fiber::FiberAssembly(rods.positions, rods.offsets, rods.radii), scene_.fiber_names,
-             message_);
+  to_message(fiber::assembly_of(rods), scene_.fiber_names, message_);
   message_.header.frame_id = scene_.frame_id;
   message_.header.stamp = ros::Time::now();
   if (options_.clock) {

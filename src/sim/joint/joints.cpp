@@ -5,10 +5,11 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
+#include "fiber_proximity/sim/effects.hpp"
 #include "src/sim/edges.hpp"
 #include "src/sim/joint/joint_parts.hpp"
-#include "src/sim/require.hpp"
 
 namespace fiber {
 
@@ -133,9 +134,8 @@ auto place_of(JointParts& parts, std::uint32_t node) {
 
 }  // namespace
 
-Joints::Joints(const Options& options) : options_(options), parts_(std::make_unique<JointParts>()) {
-  require_not_negative("joints: the relaxation time", options.relaxation_time, " s");
-}
+Joints::Joints(Options options)
+    : options_(std::move(options)), parts_(std::make_unique<JointParts>()) {}
 
 Joints::~Joints() = default;
 
@@ -275,7 +275,8 @@ void Joints::begin_step(const Rods& rods, const TimeStep& step) {
     if (weld.is_seam) {
       weld.natural_turn = natural_turn_at_seam(rods, weld.edges[0].rod);
     }
-    weld.damping_share = options_.relaxation_time / step.length;
+    weld.damping_share =
+        options_.damping == nullptr ? 0.0 : options_.damping->relaxation_time() / step.length;
     if (weld.damping_share > 0.0) {
       Vector3d strain = Vector3d::Zero();
       step.for_each_earlier(rods, [&](const RodState& state, double weight) {
@@ -303,6 +304,37 @@ void Joints::end_step(const Rods& rods) {
       weld.twist = WeldStrain(weld, rods, rods).twist();
     }
   }
+}
+
+FiberAssembly assembly_of(const Rods& rods) {
+  if (rods.joints.empty()) {
+    return {rods.positions, rods.offsets, rods.radii};
+  }
+  std::vector<std::uint32_t> members;  // by joint: given points
+  FiberTopology topology;
+  topology.closed = rods.closed;
+  std::vector<Vector3d> points;
+  std::vector<std::uint32_t> offsets{0};
+  for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
+    for (std::uint32_t i = 0; i < rods.given_node_count(rod); ++i) {
+      points.push_back(rods.positions[rods.first(rod) + i]);
+      const std::int32_t joint = rods.joints[rods.first(rod) + i];
+      topology.joints.push_back(joint);
+      if (joint >= 0) {
+        members.resize(std::max(members.size(), static_cast<std::size_t>(joint) + 1), 0);
+        ++members[static_cast<std::size_t>(joint)];
+      }
+    }
+    offsets.push_back(static_cast<std::uint32_t>(points.size()));
+  }
+  // Where a closed rod begins and ends, and no other is, is no joint of the points given.
+  for (std::int32_t& joint : topology.joints) {
+    joint = joint >= 0 && members[static_cast<std::size_t>(joint)] > 1 ? joint : -1;
+  }
+  if (std::all_of(topology.joints.begin(), topology.joints.end(), [](auto j) { return j < 0; })) {
+    topology.joints.clear();
+  }
+  return {points, offsets, rods.radii, topology};
 }
 
 }  // namespace fiber

@@ -82,6 +82,31 @@ std::vector<SceneMap> attachment_maps() {
         other_key("director", "three numbers, a direction across the tangent", "", "", "")}}};
 }
 
+std::vector<SceneMap> joint_maps() {
+  return {
+      {"joint",
+       "What is joined is one place. Its options are a list of joints, each of these keys. No node "
+       "is in two of them.",
+       true,
+       {other_key("kind", "`ball` or `weld`", "ball", "",
+                  "a weld keeps the angles between the edges that meet there, and with `twist` how "
+                  "they are turned; it takes `bend`"),
+        other_key(
+            "nodes", "a list of at least two nodes", needed, "",
+            "see below; they begin within the largest radius there of the first one, to which "
+            "they are moved")}},
+      {"joint node",
+       "An entry of a joint's `nodes`.",
+       false,
+       {other_key("fiber", "the name of a fibre", needed, "",
+                  "that of one repeated n times means n joints; all nodes of a joint are then of "
+                  "fibres repeated n times"),
+        other_key("node", "`first`, `last` or an index", "first", "", ""),
+        number_key("at", from_0_to_1, "", "",
+                   "in place of `node`: a share of the fibre's length, at which it then has a node "
+                   "however many segments it has")}}};
+}
+
 SceneKey table_key() {
   return other_key("table", "a list of entries", "", "", "how it changes in time; see below");
 }
@@ -166,7 +191,7 @@ std::vector<SceneMap> effect_maps() {
        {number_key("coefficient", at_least_0, friction.coefficient, "", ""),
         number_key("stick_speed", above_0, friction.stick_speed, "m/s",
                    "over a step, the length by which what sticks gives way before it slides")}}};
-  for (const auto& some : {attachment_maps(), load_maps()}) {
+  for (const auto& some : {attachment_maps(), joint_maps(), load_maps()}) {
     maps.insert(maps.end(), some.begin(), some.end());
   }
   return maps;

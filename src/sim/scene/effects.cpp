@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "fiber_proximity/sim/contacts.hpp"
+#include "src/sim/scene/joints.hpp"
 #include "src/sim/scene/keys.hpp"
 #include "src/sim/scene/parts.hpp"
 #include "src/sim/scene/times.hpp"
@@ -244,7 +245,11 @@ EffectLists read_effects(const YamlField& list, SimDescription& scene) {
       throw std::invalid_argument(item.place() + ": the effect " + quote(effect.name) +
                                   " is there twice");
     }
-    const bool is_list = effect.name == "attachment" || effect.name == "load";
+    const bool is_list =
+        effect.name == "attachment" || effect.name == "load" || effect.name == "joint";
+    if (effect.name == "joint" && !options) {
+      item.refuse("a map of joint to a list of joints");
+    }
     if (options && effect.name != "bend" && !is_list) {
       read_options(*options, "", other_keys(effect.name), effect.options);
     }
@@ -271,7 +276,7 @@ EffectLists read_effects(const YamlField& list, SimDescription& scene) {
   if (fields["bend"]) {
     scene.natural_curvature = read_natural_curvature(*fields["bend"], scene.has_effect("twist"));
   }
-  return {fields["attachment"], fields["load"]};
+  return {fields["attachment"], fields["load"], fields["joint"]};
 }
 
 double gravity_of(const SimDescription& scene) {
@@ -313,8 +318,10 @@ MadeEffects make_effects(const SimDescription& description, Rods& rods, SimScene
   const SimCurvature& natural = description.natural_curvature;
   const bool bends_to_be_straight = description.has_effect("bend") && natural.curvature == 0.0 &&
                                     !natural.is_from_shape && !description.has_effect("plasticity");
-  add(make_adjustable(description, "damping",
-                      bends_to_be_straight ? make_damping<true> : make_damping<false>, scene));
+  const std::shared_ptr<Damping> damping =
+      make_adjustable(description, "damping",
+                      bends_to_be_straight ? make_damping<true> : make_damping<false>, scene);
+  add(damping);
   add(make_adjustable(description, "drag", make_drag, scene));
   add_fixed("plasticity", [&](const EffectOptions& options) {
     return std::make_unique<Plasticity>(
@@ -325,6 +332,7 @@ MadeEffects make_effects(const SimDescription& description, Rods& rods, SimScene
   add(make_attachment(description, rods, scene));
   add(make_loads(description, rods, scene));
   made.contacts = make_contacts(description, scene);
+  made.joints = make_joints(description, rods, damping);
   return made;
 }
 

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "fiber_proximity/sim/resolution.hpp"
+#include "src/sim/scene/cut_curve.hpp"
 #include "src/sim/scene/keys.hpp"
 #include "src/sim/scene/named_nodes.hpp"
 #include "src/sim/scene/parts.hpp"
@@ -16,6 +17,8 @@ namespace {
 
 /// The number of segments in which the turning of a curve is measured.
 constexpr std::int64_t fine_segments = 1000;
+
+constexpr std::int64_t min_closed_segments = 3;
 
 RodMaterial read_preset(const YamlField& field) {
   return with_context(field.place(), [&] { return material_preset(field.text()); });
@@ -166,11 +169,34 @@ void set_sections(const FiberEntry& entry, Rods& rods) {
   }
 }
 
+/// Leads a curve back to where it begins.
+void close_curve(const YamlField& closed, std::vector<Eigen::Vector3d>& curve) {
+  constexpr std::size_t min_points = 3;
+  constexpr double rounding = 1e-9;  // of the length
+  if ((curve.back() - curve.front()).norm() <= rounding * length_of(curve)) {
+    curve.pop_back();
+  }
+  if (curve.size() < min_points) {
+    closed.refuse(
+        "absent or false where the shape is straight: it must have three points at least");
+  }
+  curve.push_back(curve.front());
+}
+
 void read_body(const YamlField& entry, bool chooses_segments, FiberEntry& fiber) {
+  const auto closed = entry.find("closed");
+  fiber.is_closed = closed && closed->flag();
   if (!chooses_segments || entry.find("segments")) {
-    fiber.segments = entry.get("segments").integer(1, max_segments);
+    const YamlField segments = entry.get("segments");
+    fiber.segments = segments.integer(1, max_segments);
+    if (fiber.is_closed && *fiber.segments < min_closed_segments) {
+      segments.refuse("at least " + std::to_string(min_closed_segments) + " of a closed fibre");
+    }
   }
   fiber.curve = read_shape(entry.get("shape"));
+  if (fiber.is_closed) {
+    close_curve(*closed, fiber.curve);
+  }
   fiber.length = length_of(fiber.curve);
   if (chooses_segments) {
     measure_turning(fiber);
@@ -206,7 +232,12 @@ void add(const FiberEntry& entry, std::int64_t segments, SimDescription& scene) 
         format("the material of fibre ", quote(entry.name),
                " leaves values open, for which are taken: ", entry.material_defaults));
   }
-  const std::vector<Eigen::Vector3d> points = resample(entry.curve, segments);
+  NodesAt nodes;
+  with_fiber_name(entry.name, [&] {
+    with_context(entry.place, [&] { nodes = nodes_at(entry.joint_shares, segments); });
+  });
+  const std::vector<Eigen::Vector3d> points =
+      nodes.empty() ? resample(entry.curve, segments) : cut_curve(entry.curve, segments, nodes);
   for (std::int64_t i = 0; i < entry.count.value_or(1); ++i) {
     const std::string name = entry.count ? entry.name + "_" + std::to_string(i) : entry.name;
     std::vector<Eigen::Vector3d> moved = points;
@@ -220,7 +251,12 @@ void add(const FiberEntry& entry, std::int64_t segments, SimDescription& scene) 
         set_velocities(entry, scene.rods);
       });
     });
-    scene.fibers.push_back({name, entry.name, entry.place, entry.length, entry.angular_velocity});
+    if (entry.is_closed) {
+      scene.rods.closed.resize(scene.rods.count(), 0);
+      scene.rods.closed.back() = 1;
+    }
+    scene.fibers.push_back(
+        {name, entry.name, entry.place, entry.length, entry.angular_velocity, nodes});
     scene.fiber_names.push_back(name);
   }
 }
@@ -243,7 +279,8 @@ std::int64_t FiberEntry::segments_for(std::optional<double> accuracy) const {
     return *segments;
   }
   return with_fiber_name(name, [&] {
-    const std::int64_t chosen = fiber::segments_for(accuracy.value(), turning);
+    const std::int64_t chosen = std::max<std::int64_t>(
+        fiber::segments_for(accuracy.value(), turning), is_closed ? min_closed_segments : 1);
     if (chosen > max_segments) {
       throw std::invalid_argument(place + ": the scene's accuracy takes " + std::to_string(chosen) +
                                   " segments, " + std::to_string(max_segments) + " are the most");
@@ -278,6 +315,9 @@ void cut_fibers(const std::vector<FiberEntry>& entries, std::optional<double> ac
       throw std::invalid_argument(fiber.place + " has the name " + quote(fiber.name) +
                                   " of another fibre of the scene");
     }
+  }
+  if (!scene.rods.closed.empty()) {
+    scene.rods.closed.resize(scene.rods.count(), 0);
   }
 }
 

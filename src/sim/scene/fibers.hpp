@@ -27,7 +27,9 @@ struct FiberEntry {
   std::vector<SectionEntry> sections;
   std::optional<std::int64_t> count;  ///< none: it is not repeated
   std::string repeat_place;
-  std::string material_defaults;  ///< values that its material leaves open; empty for none
+  bool is_closed = false;
+  std::vector<double> joint_shares;  ///< of its length, at which it has nodes; rising
+  std::string material_defaults;     ///< values that its material leaves open; empty for none
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< of each from the one before [m]
 
   double length = 0.0;   ///< of the curve [m]

@@ -52,6 +52,9 @@ void ForceWriter::write(std::int64_t frame, const Rods& rods, const RodForces& f
       }
     }
   }
+  for (const RodForces::JointForce& joint : forces.joints) {
+    add_row("joint", joint.rod, joint.node, joint.force, joint.moment);
+  }
   for (const RodForces::HoldForce& hold : forces.holds) {
     add_row("hold", hold.rod, hold.node, hold.force, hold.moment);
   }

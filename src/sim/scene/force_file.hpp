@@ -16,6 +16,7 @@ namespace fiber {
 /// - twisting: of edge `index`; the moment of the part after it
 /// - bending: of node `index`; the moment of the part after it
 /// - normal, friction: of a contact, on edge `index`; those of two rods have a row for each of them
+/// - joint: what a joint exerts on node `index`, one of those that it joins
 /// - hold: what a hold exerts on node `index`
 /// - load: the share of a load at node `index`, its moment on the edge after it
 ///

@@ -112,7 +112,7 @@ SimHold read_hold(const YamlField& entry, std::uint32_t rod, const Rods& rods) {
   SimHold hold;
   hold.place = entry.place();
   hold.rod = rod;
-  hold.node = read_node(entry.find("node"), rods.node_count(rod));
+  hold.node = read_node(entry.find("node"), rods.given_node_count(rod));
   hold.is_clamp = read_choice(entry.find("kind"), "pin", "clamp");
   const auto path = entry.find("path");
   const auto period = entry.find("period");
@@ -188,6 +188,19 @@ void read_holds(const YamlField& list, SimDescription& scene) {
       });
     }
   }
+}
+
+Eigen::Vector3d position_on(const SimHold& hold, double time) {
+  const Waypoints& path = hold.path;
+  const double at =
+      hold.is_periodic && path.back().time > 0.0 ? std::fmod(time, path.back().time) : time;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    if (at < path[i].time) {
+      const double share = (at - path[i - 1].time) / (path[i].time - path[i - 1].time);
+      return path[i - 1].position + share * (path[i].position - path[i - 1].position);
+    }
+  }
+  return path.back().position;
 }
 
 std::function<Placement(double)> placement_of(const SimHold& hold, const SimDescription& scene,

@@ -60,6 +60,9 @@ std::vector<SceneMap> fiber_maps() {
                   "where it is absent and there is `accuracy` or `real_time`"),
         number_key("radius", above_0, needed, "m", "the same all along the fibre"),
         other_key("material", "a preset, or a map of moduli", needed, "", "see below"),
+        other_key("closed", "true or false", "false", "",
+                  "its last segment leads back to where it begins; of three segments at least. Its "
+                  "last node is the one before it is at its first one again"),
         other_key("repeat", "a map of `count` and `offset`", "", "", "the entry is several fibres"),
         other_key("velocity", three_numbers, "[0, 0, 0]", "m/s",
                   "with which all of it begins; no point may begin faster than 1000 m/s"),

@@ -83,7 +83,7 @@ void read_place(const YamlField& entry, const SimDescription& scene, Loads::Load
                                 " says not where it is, it must have a node, or from and to");
   }
   if (node) {
-    load.node = read_node(node, scene.rods.node_count(load.rod));
+    load.node = read_node(node, scene.rods.given_node_count(load.rod));
   } else {
     const double length = scene.fibers[load.rod].length;
     load.part = along_edges(read_part(entry, length), length, scene.rods, load.rod);
@@ -96,8 +96,8 @@ SimLoad read_load(const YamlField& entry, const SimDescription& scene, std::uint
   Loads::Load& load = read.load;
   load.rod = rod;
   read_place(entry, scene, load);
-  const bool is_at_end =
-      !load.part && (load.node == 0 || load.node + 1 == scene.rods.node_count(rod));
+  const bool is_at_end = !load.part && !scene.rods.is_closed(rod) &&
+                         (load.node == 0 || load.node + 1 == scene.rods.node_count(rod));
   const Allowed allowed{scene.has_effect("twist"), is_at_end};
   Exerted exerted;
   read_exerted(entry, allowed, exerted);

@@ -77,6 +77,9 @@ std::vector<Eigen::Vector3d> resample(const std::vector<Eigen::Vector3d>& line,
 /// @throws std::invalid_argument naming file, line, field and value, and what is allowed
 void read_holds(const YamlField& list, SimDescription& scene);
 
+/// Where a hold that does not follow a frame is at a time [s]: on its path, or at its end [m].
+Eigen::Vector3d position_on(const SimHold& hold, double time);
+
 /// The placement of a hold as a function of time [s].
 /// @param rods   as the simulation begins; with twist, they have their frames already
 /// @param frames gets the frame that is to be followed, if there is one
@@ -106,6 +109,7 @@ std::shared_ptr<Loads> make_loads(const SimDescription& description, Rods& rods,
 struct EffectLists {
   std::optional<YamlField> holds;  ///< of the effect attachment; none if there is none
   std::optional<YamlField> loads;
+  std::optional<YamlField> joints;
 };
 
 /// Reads the list `effects` of a scene but for those lists: each entry is a name, or a map of a
@@ -135,6 +139,7 @@ double gravity_of(const SimDescription& scene);
 struct MadeEffects {
   Effects effects;
   std::unique_ptr<Contacts> contacts;  ///< null without a contact effect
+  std::unique_ptr<Joints> joints;      ///< null if nothing is joined or closed
 };
 
 /// Makes the effects that a scene names, and nothing for those it does not name.

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "fiber_proximity/query/engine.hpp"
+#include "fiber_proximity/sim/joints.hpp"
 #include "src/sim/scene/parts.hpp"
 #include "src/sim/scene/reach.hpp"
 #include "src/text/with_context.hpp"
@@ -90,7 +91,7 @@ class Observer {
     query_.type = QueryType::FIBER_PAIRS;
     query_.margin = options.margin;
     const Rods& rods = scene.stepper->rods();
-    fibers_ = FiberAssembly(rods.positions, rods.offsets, rods.radii);
+    fibers_ = assembly_of(rods);
     prediction_.tensions.resize(rods.count());
     for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
       prediction_.tensions[rod].rod = rod;

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <numeric>
+#include <queue>
 #include <sstream>
 #include <stdexcept>
 
@@ -42,14 +45,65 @@ double rest_length(const Rods& rods, std::uint32_t rod) {
   return rest_length_between(rods, rod, 0, rods.node_count(rod) - 1);
 }
 
+std::vector<double> lengths_from(const Rods& rods, std::uint32_t rod, std::uint32_t node) {
+  std::vector<double> lengths(rods.positions.size(), std::numeric_limits<double>::infinity());
+  std::vector<std::vector<std::uint32_t>> places;
+  for (std::uint32_t i = 0; i < rods.joints.size(); ++i) {
+    if (rods.joints[i] >= 0) {
+      const auto joint = static_cast<std::size_t>(rods.joints[i]);
+      places.resize(std::max(places.size(), joint + 1));
+      places[joint].push_back(i);
+    }
+  }
+  using Way = std::pair<double, std::uint32_t>;  // its length, and the node to which it leads
+  std::priority_queue<Way, std::vector<Way>, std::greater<>> ways;
+  const auto go = [&](double length, std::uint32_t to) {
+    if (length < lengths[to]) {
+      lengths[to] = length;
+      ways.emplace(length, to);
+    }
+  };
+  go(0.0, rods.first(rod) + node);
+  while (!ways.empty()) {
+    const auto [length, at] = ways.top();
+    ways.pop();
+    if (length > lengths[at]) {
+      continue;
+    }
+    if (rods.rest_lengths[at] > 0.0) {  // 0 at the last node of a rod
+      go(length + rods.rest_lengths[at], at + 1);
+    }
+    if (at > 0 && rods.rest_lengths[at - 1] > 0.0) {
+      go(length + rods.rest_lengths[at - 1], at - 1);
+    }
+    if (!rods.joints.empty() && rods.joints[at] >= 0) {
+      for (const std::uint32_t other : places[static_cast<std::size_t>(rods.joints[at])]) {
+        go(length, other);
+      }
+    }
+  }
+  return lengths;
+}
+
 std::vector<ReachLimit> reach_limits(const Rods& rods, const Attachment& attachment,
                                      std::uint32_t rod, std::uint32_t node, double time,
                                      double strain) {
   std::vector<ReachLimit> limits;
-  for (const HeldNode& held : attachment.held_at(rod, time)) {
-    if (held.node != node) {
-      const double length = rest_length_between(rods, rod, node, held.node);
-      limits.push_back({held.node, held.position, length, (1.0 + strain) * length});
+  const auto add = [&](std::uint32_t other, const HeldNode& held, double length) {
+    if (std::isfinite(length) && (other != rod || held.node != node)) {
+      limits.push_back({other, held.node, held.position, length, (1.0 + strain) * length});
+    }
+  };
+  if (rods.joints.empty()) {
+    for (const HeldNode& held : attachment.held_at(rod, time)) {
+      add(rod, held, rest_length_between(rods, rod, node, held.node));
+    }
+    return limits;
+  }
+  const std::vector<double> lengths = lengths_from(rods, rod, node);
+  for (std::uint32_t other = 0; other < rods.count(); ++other) {
+    for (const HeldNode& held : attachment.held_at(other, time)) {
+      add(other, held, lengths[rods.first(other) + held.node]);
     }
   }
   return limits;
@@ -118,8 +172,9 @@ std::vector<ReachLimit> limits_of(const SimScene& scene, const NodeOfRod& held, 
 std::string out_of_reach(const SimScene& scene, const NodeOfRod& held, const Vector3d& position,
                          const ReachLimit& limit) {
   return format("position ", text_of(position), " is ", (position - limit.center).norm(),
-                " m from where node ", limit.node, " of fibre ", quote(scene.fiber_names[held.rod]),
-                " is held, with ", limit.rest_length, " m of it between: it reaches ", limit.radius,
+                " m from where node ", limit.node, " of fibre ",
+                quote(scene.fiber_names[limit.rod]), " is held, with ", limit.rest_length,
+                limit.rod == held.rod ? " m of it" : " m", " between: it reaches ", limit.radius,
                 " m, stretched by ", 100.0 * scene.max_strain, " % (max_strain)");
 }
 
@@ -135,7 +190,7 @@ std::uint32_t find_rod(const SimScene& scene, const std::string& fiber) {
 }
 
 NodeOfRod find_node(const SimScene& scene, std::uint32_t rod, std::int64_t index) {
-  const auto count = static_cast<std::int64_t>(scene.stepper->rods().node_count(rod));
+  const auto count = static_cast<std::int64_t>(scene.stepper->rods().given_node_count(rod));
   const std::int64_t node = index < 0 ? count + index : index;
   if (node < 0 || node >= count) {
     throw std::invalid_argument("fibre " + quote(scene.fiber_names[rod]) + " has " +

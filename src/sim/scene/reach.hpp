@@ -10,6 +10,7 @@ namespace fiber {
 
 /// The sphere that a rod can reach with one of its nodes: another node is held at its center.
 struct ReachLimit {
+  std::uint32_t rod;       ///< that is held, or joined with it
   std::uint32_t node;      ///< that is held, from the rod's first one
   Eigen::Vector3d center;  ///< where it is held [m]
   double rest_length;      ///< of the rod between [m]
@@ -24,10 +25,17 @@ struct ReachLimit {
 double rest_length_between(const Rods& rods, std::uint32_t rod, std::uint32_t node,
                            std::uint32_t other);
 
+/// The least lengths at rest from a node to all others along rods and through joints, infinite
+/// where none lead there [m].
+/// @param node from the rod's first one
+/// @returns by node, as Rods counts nodes
+std::vector<double> lengths_from(const Rods& rods, std::uint32_t rod, std::uint32_t node);
+
 /// Length at rest of a whole rod [m].
 double rest_length(const Rods& rods, std::uint32_t rod);
 
-/// The limits of a node by the other holds of its rod, by rising node.
+/// The limits of a node by the other holds of its rod and of those it is joined with, by rising
+/// node.
 /// @param node   from the rod's first one
 /// @param time   when they hold [s]
 /// @param strain the most by which they may stretch the rod together

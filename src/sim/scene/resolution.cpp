@@ -36,7 +36,8 @@ double read_accuracy(const YamlField& field) {
 
 }  // namespace
 
-SceneResolution::SceneResolution(const YamlField& document, double gravity)
+SceneResolution::SceneResolution(const YamlField& document, double gravity,
+                                 const std::vector<JointEntry>& joints)
     : document_(document), gravity_(gravity) {
   const auto accuracy = document.find("accuracy");
   const auto real_time = document.find("real_time");
@@ -48,6 +49,9 @@ SceneResolution::SceneResolution(const YamlField& document, double gravity)
     given_substeps_ = static_cast<std::uint32_t>(given->integer(1, max_substeps));
   }
   fibers_ = read_fibers(document.get("fibers"), accuracy || is_real_time_);
+  for (FiberEntry& fiber : fibers_) {
+    fiber.joint_shares = joint_shares(joints, fiber.name);
+  }
   if (accuracy) {
     accuracy_ = read_accuracy(*accuracy);
   }

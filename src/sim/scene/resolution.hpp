@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "src/sim/scene/fibers.hpp"
+#include "src/sim/scene/joints.hpp"
 #include "src/sim/scene/real_time.hpp"
 
 namespace fiber {
@@ -14,8 +15,9 @@ class SceneResolution {
  public:
   /// Reads the keys `fibers`, `substeps`, `accuracy` (a number, or one with %) and `real_time`.
   /// @param gravity [m/s²]
+  /// @param joints  for which fibres have nodes at shares of their lengths
   /// @throws std::invalid_argument naming file, line, field and value, and what is allowed
-  SceneResolution(const YamlField& document, double gravity);
+  SceneResolution(const YamlField& document, double gravity, const std::vector<JointEntry>& joints);
 
   /// Cuts the fibres of a scene.
   /// @param scene    with its time step, options and whether it has contacts; gets rods, names,

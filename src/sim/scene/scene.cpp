@@ -8,6 +8,7 @@
 
 #include "fiber_proximity/environment/scene/environment_scene.hpp"
 #include "src/sim/overlaps.hpp"
+#include "src/sim/scene/joints.hpp"
 #include "src/sim/scene/keys.hpp"
 #include "src/sim/scene/parts.hpp"
 #include "src/sim/scene/reach.hpp"
@@ -260,14 +261,18 @@ SimDescription read_sim_scene(const YamlField& document, const MeshSource& meshe
   read_within(document, "max_strain", scene.max_strain);
   const EffectLists lists = read_effects(document.get("effects"), scene);
   read_stepper_options(document, scene.options);
-  const SceneResolution resolution(document, gravity_of(scene));
+  const std::vector<JointEntry> joints =
+      lists.joints ? read_joints(*lists.joints) : std::vector<JointEntry>();
+  const SceneResolution resolution(document, gravity_of(scene), joints);
   const EnvironmentScene environment =
       read_environment(document.find("environment"), meshes, scene);
   scene.separates_overlaps = read_choice(document.find("initial_overlap"), "refuse", "separate");
   const auto complete = [&](SimDescription& made) {
     made.allowed = resolve(environment.allowed, made.fiber_names);
+    find_joints(joints, made);
     if (lists.holds) {
       read_holds(*lists.holds, made);
+      require_holds_in_reach(made);
     }
     if (lists.loads) {
       read_loads(*lists.loads, made);
@@ -300,8 +305,9 @@ SimScene make_scene(const SimDescription& description, std::uint32_t threads,
   Rods rods = description.rods;
   MadeEffects effects = make_effects(description, rods, scene);
   resolve(scene, rods);
-  scene.stepper = std::make_unique<Stepper>(std::move(rods), std::move(effects.effects),
-                                            scene.options, std::move(effects.contacts));
+  scene.stepper =
+      std::make_unique<Stepper>(std::move(rods), std::move(effects.effects), scene.options,
+                                std::move(effects.contacts), std::move(effects.joints));
   return scene;
 }
 

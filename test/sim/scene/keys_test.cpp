@@ -72,6 +72,13 @@ std::string scene_with(const SceneMap& map, const std::string& key, const std::s
     }
     return text;
   };
+  const std::string joined_nodes = "[{fiber: a}, {fiber: thick}]";
+  // All that is within its radius may be joined with it.
+  const std::string thick = map.name.rfind("joint", 0) == 0
+                                ? ", {name: thick, shape: {line: {from: [0, 1, 0], to: [0, 3, "
+                                  "0]}}, segments: 2, radius: 2,"
+                                  " material: rope}"
+                                : "";
   std::string shape = line;
   std::string repeat;
   std::string material = "rope";
@@ -118,6 +125,10 @@ std::string scene_with(const SceneMap& map, const std::string& key, const std::s
     effects += ", {attachment: [" + with(others({{"fiber", "a"}}) + path) + "]}";
   } else if (map.name == "waypoint") {
     effects += ", {attachment: [{fiber: a, path: [" + with(others({{"time", "0"}})) + "]}]}";
+  } else if (map.name == "joint") {
+    effects += ", bend, {joint: [" + with(others({{"nodes", joined_nodes}})) + "]}";
+  } else if (map.name == "joint node") {
+    effects += ", {joint: [{nodes: [" + with(others({{"fiber", "a"}})) + ", {fiber: thick}]}]}";
   } else if (map.name == "load") {
     std::vector<std::pair<std::string, std::string>> all{{"fiber", "a"}, {"mass", "1"}};
     if (key != "from" && key != "to") {
@@ -147,7 +158,8 @@ std::string scene_with(const SceneMap& map, const std::string& key, const std::s
     }
   }
   return "{effects: [" + effects + "], fibers: [{name: a, shape: " + shape +
-         ", segments: 2, radius: 0.01, material: " + material + repeat + "}]" + environment + "}\n";
+         ", segments: 2, radius: 0.01, material: " + material + repeat + "}" + thick + "]" +
+         environment + "}\n";
 }
 
 class SceneKeys : public SimSceneTest {

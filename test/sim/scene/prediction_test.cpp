@@ -94,6 +94,24 @@ TEST_F(PredictionTest, ACopyGoesOnBitForBit) {
   }
 }
 
+TEST_F(PredictionTest, ACopyOfJoinedFibersGoesOnBitForBit) {
+  const std::string effects =
+      "[gravity, stretch, bend, twist, damping, {attachment: [{fiber: cable, kind: clamp}]}, "
+      "{joint: [{kind: weld, nodes: [{fiber: cable, node: last}, {fiber: ring}]}]}]";
+  std::string text = scene_text(line, effects, "integrator: bdf2\n");
+  text.insert(text.find("effects:"),
+              "  - {name: ring, shape: {polyline: [[1, 0, 0], [1.2, 0, 0.1], [1.4, 0, 0], [1.2, 0, "
+              "-0.1]]}, closed: true, segments: 12, radius: 0.01, material: rope}\n");
+  const SimDescription description = describe(text);
+  SimScene scene = make_sim_scene(description, 1);
+  advance(scene, 15);
+  SimScene copy = copy_sim_scene(description, scene, 1);
+  advance(scene, 15);
+  advance(copy, 15);
+  expect_same_state(copy, scene);
+  EXPECT_FALSE(scene.stepper->forces().joints.empty());
+}
+
 TEST_F(PredictionTest, ACopyHasTheParametersAndHoldsOfNow) {
   const SimDescription description = describe(hanging());
   SimScene scene = make_sim_scene(description, 1);

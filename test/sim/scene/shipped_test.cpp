@@ -38,8 +38,8 @@ INSTANTIATE_TEST_SUITE_P(Scenes, ShippedScene,
                          ::testing::Values(Shipped{"capstan", 0.03}, Shipped{"demo", 0.03},
                                            Shipped{"hanging_cable", 0.03},
                                            Shipped{"harness", 0.035}, Shipped{"hose", 0.03},
-                                           Shipped{"knot", 0.03}, Shipped{"pile", 0.03},
-                                           Shipped{"wind", 0.03}),
+                                           Shipped{"joined", 0.03}, Shipped{"knot", 0.03},
+                                           Shipped{"pile", 0.03}, Shipped{"wind", 0.03}),
                          [](const auto& scene) { return std::string(scene.param.name); });
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "fiber_proximity/environment/environment.hpp"
 #include "fiber_proximity/environment/scene/environment_scene.hpp"
 #include "fiber_proximity/sim/attachment.hpp"
+#include "fiber_proximity/sim/joints.hpp"
 #include "fiber_proximity/sim/loads.hpp"
 #include "fiber_proximity/sim/stepper.hpp"
 #include "fiber_proximity/yaml/yaml_field.hpp"
@@ -54,6 +55,9 @@ struct SimFiber {
   std::string place;
   double length = 0.0;  ///< of its shape, before it is cut into segments [m]
   Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();  ///< to begin with [rad/s]
+
+  /// The nodes by the shares of the length at which joints name them.
+  std::map<double, std::uint32_t> nodes_at;
 };
 
 /// The numbers of an effect by the names of its options. Names of options in a map begin with that
@@ -103,6 +107,12 @@ struct SimLoad {
   std::vector<std::string> parameters;  ///< force, moment, torque: those that are given once
 };
 
+/// A joint of nodes.
+struct SimJoint {
+  std::string place;
+  Joints::Joint joint;
+};
+
 /// The contents of a scene file, checked as far as possible without making the scene.
 struct SimDescription : SimSettings {
   Rods rods;  ///< as they lie in the file
@@ -112,6 +122,7 @@ struct SimDescription : SimSettings {
   SimCurvature natural_curvature;
   std::vector<SimHold> holds;
   std::vector<SimLoad> loads;
+  std::vector<SimJoint> joints;
   AllowedPairs allowed;             ///< fibres and objects that may touch
   bool separates_overlaps = false;  ///< moves fibres apart that begin inside of something
 
