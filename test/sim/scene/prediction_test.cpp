@@ -13,7 +13,8 @@ using Eigen::Vector3d;
 /// Two cables that are dragged over a table and each other, with all that scenes may name.
 std::string busy_scene(const std::string& more_effects, const std::string& integrator) {
   return "fibers:\n"
-         "  - {name: upper, shape: {line: {from: [0, -0.1, 0.017], to: [0, 0.5, 0.017]}}, segments: "
+         "  - {name: upper, shape: {line: {from: [0, -0.1, 0.017], to: [0, 0.5, 0.017]}}, "
+         "segments: "
          "20, radius: 0.005, material: power_cable}\n"
          "  - {name: lower, shape: {line: {from: [-0.3, 0.1, 0.006], to: [0.3, 0.1, 0.006]}}, "
          "segments: 20, radius: 0.005, material: power_cable}\n"
