@@ -25,6 +25,7 @@ add_library(fiber_proximity_sim SHARED
   src/sim/overlaps.cpp
   src/sim/resolution.cpp
   src/sim/rods.cpp
+  src/sim/sections.cpp
   src/sim/solver/joint_solver.cpp
   src/sim/solver/newton.cpp
   src/sim/solver/pack_kernels.cpp

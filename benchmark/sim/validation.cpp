@@ -79,6 +79,15 @@ void validate_loads(const Report& report) {
             std::hypot(theory.drop, theory.reach - 1.0), std::hypot(tip.drop, tip.reach - 1.0),
             half_percent});
   }
+  for (const double step : {0.4, 0.473}) {
+    const CantileverTip theory = exact_stepped_arc_tip(2.0, step);
+    const CantileverTip tip = simulated_stepped_arc_tip(segments, 2.0, step);
+    const std::string scene = text("EI 4 and 1, step at L", step);
+    report({"stepped cantilever", scene, "drop / L by an end moment", segments, theory.drop,
+            tip.drop, half_percent});
+    report({"stepped cantilever", scene, "drop EI / PL³", segments, exact_stepped_compliance(step),
+            simulated_stepped_compliance(segments, step), half_percent});
+  }
   for (const double place : {0.5, 0.2}) {
     const HangingChain theory = exact_loaded_catenary(1.2, 1.0, place);
     const HangingChain chain = simulated_loaded_catenary(1.2, 1.0, place, segments);
@@ -93,8 +102,8 @@ void validate_loads(const Report& report) {
     constexpr double share = 0.01;
     constexpr double step = 0.005;
     constexpr double thousandth = 0.001;
-    report({"pendulum with a weight", text("amplitude [°]", degrees),
-            "period [s]", segments, exact_weight_pendulum_period(angle, share),
+    report({"pendulum with a weight", text("amplitude [°]", degrees), "period [s]", segments,
+            exact_weight_pendulum_period(angle, share),
             simulated_weight_pendulum_period(segments, angle, share, step), thousandth});
   }
 }

@@ -112,9 +112,24 @@ class PackLane {
   std::size_t lane() const { return lane_; }
   std::uint32_t node_count() const { return rods_.node_count; }
   bool has_twist() const { return rods_.unknowns == 4; }
-  double stretching_stiffness() const { return rods_.stretching_stiffness[lane_]; }
-  double bending_stiffness() const { return rods_.bending_stiffness[lane_]; }
-  double twisting_stiffness() const { return rods_.twisting_stiffness[lane_]; }
+  /// Of an edge, and of the length at rest that belongs to a node.
+  double stretching_stiffness(std::uint32_t edge) const {
+    return rods_.stretching_stiffness[lane_] *
+           section_share(rods_.inverse_stretching_lengths, edge, rest_length(edge));
+  }
+  double bending_stiffness(std::uint32_t node) const {
+    return rods_.bending_stiffness[lane_] *
+           section_share(rods_.inverse_bending_lengths, node, rest_length_at(node));
+  }
+  double twisting_stiffness(std::uint32_t node) const {
+    return rods_.twisting_stiffness[lane_] *
+           section_share(rods_.inverse_twisting_lengths, node, rest_length_at(node));
+  }
+  /// Half of each edge at the node [m].
+  double rest_length_at(std::uint32_t node) const {
+    return 0.5 * ((node > 0 ? rest_length(node - 1) : 0.0) +
+                  (node + 1 < rods_.node_count ? rest_length(node) : 0.0));
+  }
   double rest_length(std::uint32_t edge) const { return rods_.rest_lengths[edge][lane_]; }
   Eigen::Vector3d position(std::uint32_t node) const {
     return vector(rods_.positions, rods_.unknowns * node);
@@ -135,6 +150,11 @@ class PackLane {
   }
 
  private:
+  /// The part of the rod's own stiffness that a section has.
+  double section_share(const std::vector<SimdBatch>& inverse_lengths, std::uint32_t at,
+                       double length) const {
+    return rods_.has_sections ? length * inverse_lengths[at][lane_] : 1.0;
+  }
   Eigen::Vector3d vector(const std::vector<SimdBatch>& from, std::size_t first) const {
     return {from[first][lane_], from[first + 1][lane_], from[first + 2][lane_]};
   }

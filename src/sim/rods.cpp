@@ -117,6 +117,9 @@ void Rods::add(const std::vector<Eigen::Vector3d>& points, double radius,
     masses[i] += half_mass;
     masses[i + 1] += half_mass;
   }
+  if (!section_lengths.empty()) {
+    set_sections(count() - 1, {});
+  }
 }
 
 }  // namespace fiber

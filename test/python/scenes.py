@@ -45,6 +45,21 @@ class Simulations(unittest.TestCase):
         self.assertEqual(simulation.time, 0.0)
         np.testing.assert_allclose(simulation.positions[:, 2], 1.0, atol=1e-12)
 
+    def test_loads_and_velocities(self):
+        simulation = fp.Simulation({
+            'fibers': [{**CABLE, 'velocity': [0, 0, 1], 'sections': [{'to': 0.5, 'material': {'density': 4400}}]}],
+            'effects': ['stretch', 'bend', {'load': [{'fiber': 'cable', 'node': 'last', 'force': [3, 0, 0]}]}]})
+        simulation.step(1)
+        loads = simulation.forces.loads
+        self.assertEqual((loads['load'].tolist(), loads['node'].tolist()), ([0], [20]))
+        np.testing.assert_array_equal(loads['force'], [[3, 0, 0]])
+        self.assertEqual(loads['moment'].shape, (1, 3))
+        np.testing.assert_allclose(simulation.velocities[:, 2], 1.0, atol=1e-9)
+        self.assertGreater(simulation.velocities[-1, 0], 0.0)
+        simulation.set_parameters({'load.0.force': [0, 2, 0]})
+        simulation.step(1)
+        np.testing.assert_array_equal(simulation.forces.loads['force'], [[0, 2, 0]])
+
     def test_a_file_is_a_dict(self):
         config = pathlib.Path(__file__).resolve().parents[2] / 'config' / 'sim' / 'hanging_cable.yaml'
         from_file = fp.Simulation(config, threads=1)

@@ -19,6 +19,19 @@ TEST(LoadTheory, AMomentBendsARodToAnArcOfACircle) {
   }
 }
 
+/// The step is at a node, and inside of an edge.
+TEST(LoadTheory, ASteppedCantileverBendsAsItsParts) {
+  for (const double step : {0.4, 0.473}) {
+    SCOPED_TRACE(step);
+    const CantileverTip exact = exact_stepped_arc_tip(2.0, step);
+    const CantileverTip tip = simulated_stepped_arc_tip(50, 2.0, step);
+    EXPECT_NEAR(tip.drop, exact.drop, half_percent * exact.drop);
+    EXPECT_NEAR(tip.reach, exact.reach, half_percent * exact.reach);
+    const double compliance = exact_stepped_compliance(step);
+    EXPECT_NEAR(simulated_stepped_compliance(50, step), compliance, half_percent * compliance);
+  }
+}
+
 TEST(LoadTheory, AChainWithAWeightHangsInTwoCatenaries) {
   const HangingChain plain = exact_catenary(1.2);
   const HangingChain none = exact_loaded_catenary(1.2, 0.0, 0.5);

@@ -19,6 +19,27 @@ std::unique_ptr<Loads> loads_with(Rods& rods, const Loads::Load& load) {
   return loads;
 }
 
+constexpr double thick_bending_stiffness = 4.0;
+
+/// The tip of a rod of length 1, level from a clamp, at rest under a load.
+/// @param step length of its thick part
+CantileverTip loaded_tip(int segments, double step, const Loads::Load& load) {
+  Rods rods;
+  rods.add(straight({0, 0, 0}, {1, 0, 0}, segments), 0.01, {1e7, 1.0, 1.0, 1.0, 1e-6});
+  if (step > 0.0) {
+    rods.set_sections(0, {{{0.0, step}, {1e7, thick_bending_stiffness, 1.0, 1.0, 1e-6}}});
+  }
+  auto clamped = hold(rods, {clamp(0, {Vector3d::Zero(), Vector3d::UnitX(), Vector3d::UnitY()})});
+  auto loads = loads_with(rods, load);
+  Stepper stepper(rods,
+                  effects(std::make_unique<Stretch>(), std::make_unique<Bend>(), std::move(clamped),
+                          std::move(loads)),
+                  precise());
+  settle(stepper);
+  const Vector3d& tip = stepper.rods().positions.back();
+  return {-tip.z(), tip.x()};
+}
+
 /// Where a chain of weight 1 per length is after a length, pulled at its beginning by a level force
 /// and an upward one: level, and up.
 Eigen::Vector2d hung(double level, double upward, double length) {
@@ -33,21 +54,37 @@ CantileverTip exact_arc_tip(double moment) {
   return {(1.0 - std::cos(moment)) / moment, std::sin(moment) / moment};
 }
 
+CantileverTip exact_stepped_arc_tip(double moment, double step) {
+  // Two arcs one behind the other.
+  const double first = moment / thick_bending_stiffness;
+  const double turn = first * step;
+  const double end = turn + moment * (1.0 - step);
+  return {(1.0 - std::cos(turn)) / first + (std::cos(turn) - std::cos(end)) / moment,
+          std::sin(turn) / first + (std::sin(end) - std::sin(turn)) / moment};
+}
+
+double exact_stepped_compliance(double step) {
+  const double rest = std::pow(1.0 - step, 3) / 3.0;
+  return (1.0 / 3.0 - rest) / thick_bending_stiffness + rest;
+}
+
 CantileverTip simulated_arc_tip(int segments, double moment) {
-  Rods rods;
-  rods.add(straight({0, 0, 0}, {1, 0, 0}, segments), 0.01, {1e7, 1.0, 1.0, 1.0, 1e-6});
-  auto clamped = hold(rods, {clamp(0, {Vector3d::Zero(), Vector3d::UnitX(), Vector3d::UnitY()})});
+  return simulated_stepped_arc_tip(segments, moment, 0.0);
+}
+
+CantileverTip simulated_stepped_arc_tip(int segments, double moment, double step) {
   Loads::Load load;
-  load.node = rods.node_count(0) - 1;
+  load.node = static_cast<std::uint32_t>(segments);
   load.moment = TimeTable<Vector3d>(Vector3d(0.0, moment, 0.0));
-  auto loads = loads_with(rods, load);
-  Stepper stepper(rods,
-                  effects(std::make_unique<Stretch>(), std::make_unique<Bend>(), std::move(clamped),
-                          std::move(loads)),
-                  precise());
-  settle(stepper);
-  const Vector3d& tip = stepper.rods().positions.back();
-  return {-tip.z(), tip.x()};
+  return loaded_tip(segments, step, load);
+}
+
+double simulated_stepped_compliance(int segments, double step) {
+  constexpr double force = 1e-3;
+  Loads::Load load;
+  load.node = static_cast<std::uint32_t>(segments);
+  load.force = TimeTable<Vector3d>(Vector3d(0.0, 0.0, -force));
+  return loaded_tip(segments, step, load).drop / force;
 }
 
 HangingChain exact_loaded_catenary(double length, double weight, double place) {

@@ -10,6 +10,15 @@ namespace fiber {
 CantileverTip exact_arc_tip(double moment);
 CantileverTip simulated_arc_tip(int segments, double moment);
 
+/// The same of a rod that is thicker from a clamp to a step: bending stiffness 4 there, 1 beyond.
+/// @param step length of the thick part
+CantileverTip exact_stepped_arc_tip(double moment, double step);
+CantileverTip simulated_stepped_arc_tip(int segments, double moment, double step);
+
+/// How far the tip of the stepped rod sinks under a force on it, by that force, where it is small.
+double exact_stepped_compliance(double step);
+double simulated_stepped_compliance(int segments, double step);
+
 /// Over a span of 1, weight 1 per length, with a weight in it: the sag of the weight, and what
 /// pulls at the ends level. Two arcs of catenaries meet in the weight (Irvine 1981, Sect. 1.2).
 /// @param length of the chain, > 1

@@ -38,10 +38,15 @@ struct RodPack {
   SimdBatch stretching_stiffness;
   SimdBatch bending_stiffness;
   SimdBatch twisting_stiffness;
-  std::vector<SimdBatch> masses;                ///< of nodes [kg]
-  std::vector<SimdBatch> rest_lengths;          ///< of edges [m]
-  std::vector<SimdBatch> inverse_rest_lengths;  ///< of edges [1/m]
-  std::vector<SimdBatch> inverse_node_lengths;  ///< of half the edges at inner nodes [1/m]
+  std::vector<SimdBatch> masses;        ///< of nodes [kg]
+  std::vector<SimdBatch> rest_lengths;  ///< of edges [m]
+
+  /// The inverse lengths that the stiffnesses above act on [1/m]: of edges, and of inner nodes half
+  /// of both edges; twisting ones with twist only. Where a rod has sections of its own, they are
+  /// those of SectionLengths.
+  std::vector<SimdBatch> inverse_stretching_lengths;
+  std::vector<SimdBatch> inverse_bending_lengths;
+  std::vector<SimdBatch> inverse_twisting_lengths;
 
   std::vector<SimdBatch> positions;  ///< vectors [m]; with twist, each with the angle of its edge
 
@@ -64,6 +69,7 @@ struct RodPack {
   std::size_t used = 0;                                 ///< lanes; the others repeat the first one
   std::size_t unknowns = 3;                             ///< of each node: 3, or 4 with twist
   std::uint32_t node_count = 0;
+  bool has_sections = false;  ///< whether lengths are those of SectionLengths
 };
 
 /// The half-bandwidth of a rod's Hessian: the unknowns of a node are coupled to each other and to

@@ -46,6 +46,23 @@ struct RodPart {
   double to = 0.0;
 };
 
+/// A part of a rod with a section of its own.
+struct RodSectionPart {
+  RodPart part;
+  RodSection section;
+};
+
+/// What sections along parts of rods amount to, with stiffnesses in series: lengths of the rods'
+/// own sections (Rods::sections) that would give way as much.
+struct SectionLengths {
+  std::vector<double> stretching;  ///< of edges [m]
+  std::vector<double> bending;     ///< of nodes: half of each edge [m]
+  std::vector<double> twisting;    ///< of nodes [m]
+  std::vector<double> inertias;    ///< of edges' cross-sections about the tangent [kg m²]
+
+  bool empty() const { return stretching.empty(); }
+};
+
 /// The positions of rods, and their rates.
 struct RodState {
   std::vector<Eigen::Vector3d> positions;   ///< of nodes [m]
@@ -69,6 +86,8 @@ struct Rods : RodState {
   std::vector<std::uint32_t> offsets{0};
   std::vector<double> radii;         ///< by rod [m]
   std::vector<RodSection> sections;  ///< by rod
+
+  SectionLengths section_lengths;  ///< empty where all rods are the same all along
 
   /// By rod: not 0 where the last node is the first one again, and Joints::close() joins the two.
   /// Empty: no rod is closed.
@@ -114,7 +133,14 @@ struct Rods : RodState {
   /// The moment of inertia of an edge's cross-section about the tangent [kg m²]; 0 at each rod's
   /// last node.
   double section_inertia(std::uint32_t rod, std::uint32_t edge) const {
-    return sections[rod].inertia_per_length * rest_lengths[edge];
+    return section_lengths.empty() ? sections[rod].inertia_per_length * rest_lengths[edge]
+                                   : section_lengths.inertias[edge];
+  }
+
+  /// The stiffness of an edge against stretch [N/m].
+  double edge_stiffness(std::uint32_t rod, std::uint32_t edge) const {
+    return sections[rod].stretching_stiffness /
+           (section_lengths.empty() ? rest_lengths[edge] : section_lengths.stretching[edge]);
   }
 
   /// Adds a rod that is at rest and neither stretched nor compressed.
@@ -124,6 +150,14 @@ struct Rods : RodState {
   ///         that are not finite, edges without length, a radius that is not positive, a section
   ///         that does not validate; nothing is added then
   void add(const std::vector<Eigen::Vector3d>& points, double radius, const RodSection& section);
+
+  /// Gives parts of a rod sections of their own, with their masses; the others keep that of the
+  /// rod. Call at most once for a rod.
+  /// @param parts one behind the other
+  /// @throws std::invalid_argument naming rod, part and value, for parts that overlap or leave the
+  ///         rod, and sections, that of the rod included, whose stiffnesses and masses are not
+  ///         positive and finite; nothing is changed then
+  void set_sections(std::uint32_t rod, const std::vector<RodSectionPart>& parts);
 };
 
 }  // namespace fiber

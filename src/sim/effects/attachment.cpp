@@ -89,8 +89,9 @@ class ClampedEnd {
         node_(node),
         edge_(clamped_edge(node)),
         direction_(rod.direction(edge_)),
-        bending_(rod.bending_stiffness() / (0.5 * rod.rest_length(edge_))),
-        twisting_(rod.twisting_stiffness() / (0.5 * rod.rest_length(edge_))) {
+        bending_(rod.bending_stiffness(node) / (0.5 * rod.rest_length(edge_))),
+        twisting_(rod.has_twist() ? rod.twisting_stiffness(node) / (0.5 * rod.rest_length(edge_))
+                                  : 0.0) {
     if (rod.has_twist()) {
       twist_ = twist_of(placement, direction_.tangent, rod.director(edge_), rod.angle(edge_), near);
     }
@@ -261,8 +262,7 @@ void Attachment::begin_step(Rods& rods, const TimeStep& step) {
     validate(rods, held.hold, held.placement);
     const std::uint32_t node = rods.first(held.hold.rod) + held.hold.node;
     const std::uint32_t edge = std::min(node, rods.end(held.hold.rod) - 2);
-    const double edge_stiffness =
-        rods.sections[held.hold.rod].stretching_stiffness / rods.rest_lengths[edge];
+    const double edge_stiffness = rods.edge_stiffness(held.hold.rod, edge);
     held.stiffness = ratio * (edge_stiffness + rods.masses[node] / (step.length * step.length));
     held.natural_bend.reset();
     if (held.is_clamp() && !rods.natural_curvature_vectors.empty()) {

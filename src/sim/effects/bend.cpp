@@ -27,7 +27,7 @@ void energy(const RodPack& rods, const NodeValues& /*values*/, const double* /*c
     for (std::size_t i = 1; i + 1 < rods.node_count; ++i) {
       const Vector after = tangent_at(rods, i, lane);
       const Vector turn = after - before;
-      sum = sum + dot(turn, turn) * load(rods.inverse_node_lengths[i], lane);
+      sum = sum + dot(turn, turn) * load(rods.inverse_bending_lengths[i], lane);
       before = after;
     }
     store(real(0.5) * load(rods.bending_stiffness, lane) * sum, energy, lane);
@@ -39,7 +39,7 @@ void add_derivatives_of(const RodPack& rods, PackSystem& system) {
   for (std::size_t lane = 0; lane < rods.used; lane += lanes_at_once()) {
     const Real total = load(rods.bending_stiffness, lane);
     for (std::size_t i = 1; i + 1 < rods.node_count; ++i) {
-      const Real stiffness = total * load(rods.inverse_node_lengths[i], lane);
+      const Real stiffness = total * load(rods.inverse_bending_lengths[i], lane);
       const TwoEdges edges = edges_beside(rods, i, lane);
       const Vector gradient = stiffness * (edges.after - edges.before);
       add_gradient<U>(edges, negative(gradient), gradient, i, lane, system);
@@ -59,7 +59,7 @@ void curved_energy(const RodPack& rods, const NodeValues& natural, const double*
     Real sum = real(0.0);
     for (std::size_t i = 1; i + 1 < rods.node_count; ++i) {
       const Real excess = sized_turn(edges_beside(rods, i, lane), load(natural[i], lane)).excess;
-      sum = sum + excess * excess * load(rods.inverse_node_lengths[i], lane);
+      sum = sum + excess * excess * load(rods.inverse_bending_lengths[i], lane);
     }
     store(real(0.5) * load(rods.bending_stiffness, lane) * sum, energy, lane);
   }
@@ -95,7 +95,7 @@ void add_curved_derivatives_of(const RodPack& rods, const NodeValues& natural, P
   for (std::size_t lane = 0; lane < rods.used; lane += lanes_at_once()) {
     const Real total = load(rods.bending_stiffness, lane);
     for (std::size_t i = 1; i + 1 < rods.node_count; ++i) {
-      const Real stiffness = total * load(rods.inverse_node_lengths[i], lane);
+      const Real stiffness = total * load(rods.inverse_bending_lengths[i], lane);
       const TwoEdges edges = edges_beside(rods, i, lane);
       const SizedTurn turn = sized_turn(edges, load(natural[i], lane));
       add_sized_turn<U>(edges, turn, direction_of(turn, edges.before), stiffness, real(0.0), i,
@@ -213,7 +213,7 @@ void Bend::add_forces(const RodPack& rods, const NodeValues& values, RodForces& 
       const double length = 0.5 * (rod.rest_length(edge - 1) + rod.rest_length(edge));
       const double share = turn > 0.0 ? 1.0 - natural / turn : 0.0;
       forces.bending_moments[index] +=
-          rod.bending_stiffness() / length * share * before.cross(after);
+          rod.bending_stiffness(edge) / length * share * before.cross(after);
     }
   });
 }

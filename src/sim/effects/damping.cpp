@@ -30,10 +30,10 @@ void energy(const RodPack& rods, const NodeValues& earlier, const double* share,
     for (std::size_t i = 0; i + 1 < rods.node_count; ++i) {
       const SimdBatch* const values = &earlier[sizes_per_node * i];
       const Real longer = lengthening(rods, values[0], i, lane);
-      stretch = stretch + longer * longer * load(rods.inverse_rest_lengths[i], lane);
+      stretch = stretch + longer * longer * load(rods.inverse_stretching_lengths[i], lane);
       if (i > 0) {
         const Real larger = sized_turn(edges_beside(rods, i, lane), load(values[1], lane)).excess;
-        bend = bend + larger * larger * load(rods.inverse_node_lengths[i], lane);
+        bend = bend + larger * larger * load(rods.inverse_bending_lengths[i], lane);
       }
     }
     const Real sum =
@@ -59,7 +59,7 @@ void add_derivatives_of(const RodPack& rods, const NodeValues& earlier, const do
         const SizedTurn turn = sized_turn(edges, load(values[1], lane));
         // Where the rod has become straight, no side is better than another: there is no force.
         const Vector direction = real(1.0) / hn::Max(turn.size, smallest) * turn.turn;
-        const Real stiffness = bending * load(rods.inverse_node_lengths[i], lane);
+        const Real stiffness = bending * load(rods.inverse_bending_lengths[i], lane);
         add_sized_turn<U>(edges, turn, direction, stiffness, min_sideways, i, lane, system);
       }
     }
@@ -153,7 +153,7 @@ void Damping::add_forces(const RodPack& rods, const NodeValues& values, RodForce
     const std::size_t lane = rod.lane();
     const EdgeDirection after = rod.direction(edge);
     const SimdBatch* const earlier = &values[std::size_t{per_node_} * edge];
-    forces.tensions[index] += constants_[0] * rod.stretching_stiffness() *
+    forces.tensions[index] += constants_[0] * rod.stretching_stiffness(edge) *
                               (after.length - earlier[0][lane]) / rod.rest_length(edge);
     if (edge == 0) {
       return;
@@ -169,7 +169,7 @@ void Damping::add_forces(const RodPack& rods, const NodeValues& values, RodForce
     const double length = 0.5 * (rod.rest_length(edge - 1) + rod.rest_length(edge));
     const double share = size > 0.0 ? constants_[0] * (1.0 - earlier[1][lane] / size) : 0.0;
     forces.bending_moments[index] +=
-        share * rod.bending_stiffness() / length * before.cross(after.tangent);
+        share * rod.bending_stiffness(edge) / length * before.cross(after.tangent);
   });
 }
 

@@ -115,9 +115,9 @@ class Couple {
         across_(edge.tangent - axis_ * axis_.dot(edge.tangent)),
         edge_(edge) {
     // An edge along the moment has no side to which it could turn.
-    constexpr double least = 1e-12;
+    constexpr double min_square = 1e-12;
     const Vector3d start = start_tangent - axis_ * axis_.dot(start_tangent);
-    if (start.squaredNorm() > least && across_.squaredNorm() > least) {
+    if (start.squaredNorm() > min_square && across_.squaredNorm() > min_square) {
       moment_ = moment.norm() * start.squaredNorm();
       angle_ = signed_angle(start, across_, axis_);
     }

@@ -75,7 +75,7 @@ NaturalBend::NaturalBend(const PackLane& rod, std::uint32_t node, const Vector2d
                          double length, const CrossSection& before, const CrossSection& after)
     : rod_(rod),
       node_(node),
-      stiffness_(rod.bending_stiffness() / length),
+      stiffness_(rod.bending_stiffness(node) / length),
       before_(before.tangent),
       after_(after.tangent) {
   const double size = curvature.norm();

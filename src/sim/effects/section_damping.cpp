@@ -60,15 +60,15 @@ void energy(const RodPack& rods, const NodeValues& earlier, const double* share,
     Real stretch = real(0.0);
     for (std::size_t i = 0; i + 1 < rods.node_count; ++i) {
       const Real longer = lengthening(rods, earlier[section_strains_per_node * i], i, lane);
-      stretch = stretch + longer * longer * load(rods.inverse_rest_lengths[i], lane);
+      stretch = stretch + longer * longer * load(rods.inverse_stretching_lengths[i], lane);
     }
     Real bend = real(0.0);
     Real twist = real(0.0);
     for_each_change(rods, earlier, lane, [&](std::size_t node, const SectionChange& change) {
-      const Real inverse_length = load(rods.inverse_node_lengths[node], lane);
       const auto& [first, second] = change.bend.values;
-      bend = bend + (first * first + second * second) * inverse_length;
-      twist = twist + change.twist * change.twist * inverse_length;
+      bend =
+          bend + (first * first + second * second) * load(rods.inverse_bending_lengths[node], lane);
+      twist = twist + change.twist * change.twist * load(rods.inverse_twisting_lengths[node], lane);
     });
     const Real sum = load(rods.stretching_stiffness, lane) * stretch +
                      load(rods.bending_stiffness, lane) * bend +
@@ -88,14 +88,14 @@ void add_derivatives(const RodPack& rods, const NodeValues& earlier, const doubl
                                         lane, system);
     }
     for_each_change(rods, earlier, lane, [&](std::size_t node, const SectionChange& change) {
-      const Real inverse_length = load(rods.inverse_node_lengths[node], lane);
-      const Real stiffness = bending * inverse_length;
+      const Real stiffness = bending * load(rods.inverse_bending_lengths[node], lane);
+      const Real twisting_stiffness = twisting * load(rods.inverse_twisting_lengths[node], lane);
       for (std::size_t j = 0; j < 2; ++j) {
         add_square(by_rotation(rods, change.bend.by_rotation[j], node, lane),
                    stiffness * change.bend.values[j], stiffness, node, lane, system);
       }
-      add_square(twist_derivative(rods, node, lane), twisting * inverse_length * change.twist,
-                 twisting * inverse_length, node, lane, system);
+      add_square(twist_derivative(rods, node, lane), twisting_stiffness * change.twist,
+                 twisting_stiffness, node, lane, system);
     });
   }
 }
@@ -106,13 +106,14 @@ void find_moments(const RodPack& rods, const NodeValues& earlier, double share,
   moments.assign(std::size_t{4} * rods.node_count, SimdBatch{});
   for (std::size_t lane = 0; lane < rods.used; lane += lanes_at_once()) {
     for_each_change(rods, earlier, lane, [&](std::size_t node, const SectionChange& change) {
-      const Real by_length = real(share) * load(rods.inverse_node_lengths[node], lane);
-      const Real stiffness = by_length * load(rods.bending_stiffness, lane);
+      const Real bending = real(share) * load(rods.inverse_bending_lengths[node], lane);
+      const Real twisting = real(share) * load(rods.inverse_twisting_lengths[node], lane);
+      const Real stiffness = bending * load(rods.bending_stiffness, lane);
       const SectionBend& bend = change.bend;
       store(
           stiffness * (bend.values[0] * bend.by_rotation[0] + bend.values[1] * bend.by_rotation[1]),
           &moments[4 * node], lane);
-      store(by_length * load(rods.twisting_stiffness, lane) * change.twist, moments[4 * node + 3],
+      store(twisting * load(rods.twisting_stiffness, lane) * change.twist, moments[4 * node + 3],
             lane);
     });
   }

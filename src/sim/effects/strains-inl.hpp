@@ -29,7 +29,7 @@ template <std::size_t U>
 HWY_INLINE void add_lengthening(const RodPack& rods, const SimdBatch& earlier, Real stiffness,
                                 std::size_t edge, std::size_t lane, PackSystem& system) {
   const Vector tangent = tangent_at(rods, edge, lane);
-  const Real by_length = stiffness * load(rods.inverse_rest_lengths[edge], lane);
+  const Real by_length = stiffness * load(rods.inverse_stretching_lengths[edge], lane);
   const Real tension = by_length * lengthening(rods, earlier, edge, lane);
   // As in Stretch, the part that is negative definite under pressure is left out.
   const Real sideways = hn::Max(real(0.0), tension * load(rods.inverse_lengths[edge], lane));

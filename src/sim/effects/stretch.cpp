@@ -24,7 +24,7 @@ void stretch_energy(const RodPack& rods, const NodeValues& /*values*/, const dou
     Real sum = real(0.0);
     for (std::size_t i = 0; i + 1 < rods.node_count; ++i) {
       const Real excess = load(rods.lengths[i], lane) - load(rods.rest_lengths[i], lane);
-      sum = sum + excess * excess * load(rods.inverse_rest_lengths[i], lane);
+      sum = sum + excess * excess * load(rods.inverse_stretching_lengths[i], lane);
     }
     store(real(0.5) * load(rods.stretching_stiffness, lane) * sum, energy, lane);
   }
@@ -36,7 +36,7 @@ void add_stretch_of(const RodPack& rods, PackSystem& system) {
   for (std::size_t lane = 0; lane < rods.used; lane += lanes_at_once()) {
     const Real total = load(rods.stretching_stiffness, lane);
     for (std::size_t i = 0; i + 1 < rods.node_count; ++i) {
-      const Real stiffness = total * load(rods.inverse_rest_lengths[i], lane);
+      const Real stiffness = total * load(rods.inverse_stretching_lengths[i], lane);
       const Real excess = load(rods.lengths[i], lane) - load(rods.rest_lengths[i], lane);
       const Vector tangent = tangent_at(rods, i, lane);
       const Vector force = stiffness * excess * tangent;
@@ -121,7 +121,7 @@ void Stretch::add_forces(const RodPack& rods, const std::vector<SimdBatch>& /*va
                          RodForces& forces) const {
   for_each_edge(rods, [&](const PackLane& rod, std::uint32_t edge, std::uint32_t index) {
     const double strain = rod.direction(edge).length / rod.rest_length(edge) - 1.0;
-    forces.tensions[index] += rod.stretching_stiffness() * strain;
+    forces.tensions[index] += rod.stretching_stiffness(edge) * strain;
   });
 }
 

@@ -32,7 +32,7 @@ void energy(const RodPack& rods, const NodeValues& references, const double* /*c
     Real sum = real(0.0);
     for (std::size_t i = 1; i + 1 < rods.node_count; ++i) {
       const Real twist = twist_at(rods, references, i, lane);
-      sum = sum + twist * twist * load(rods.inverse_node_lengths[i], lane);
+      sum = sum + twist * twist * load(rods.inverse_twisting_lengths[i], lane);
     }
     store(real(0.5) * load(rods.twisting_stiffness, lane) * sum, energy, lane);
   }
@@ -44,7 +44,7 @@ void add_derivatives(const RodPack& rods, const NodeValues& references, const do
   for (std::size_t lane = 0; lane < rods.used; lane += lanes_at_once()) {
     const Real total = load(rods.twisting_stiffness, lane);
     for (std::size_t i = 1; i + 1 < rods.node_count; ++i) {
-      const Real stiffness = total * load(rods.inverse_node_lengths[i], lane);
+      const Real stiffness = total * load(rods.inverse_twisting_lengths[i], lane);
       const Real moment = stiffness * twist_at(rods, references, i, lane);
       add_square(twist_derivative(rods, i, lane), moment, stiffness, i, lane, system);
     }
@@ -105,7 +105,7 @@ void Twist::add_forces(const RodPack& rods, const NodeValues& values, RodForces&
       const double twist =
           rod.angle(edge) - rod.angle(edge - 1) + nearest_turn(directors, values[edge][rod.lane()]);
       const double length = 0.5 * (rod.rest_length(edge - 1) + rod.rest_length(edge));
-      forces.twisting_moments[index] += rod.twisting_stiffness() / length * twist;
+      forces.twisting_moments[index] += rod.twisting_stiffness(edge) / length * twist;
     }
   });
 }

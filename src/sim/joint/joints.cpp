@@ -52,10 +52,18 @@ struct HalfEdge {
   double twisting;  // stiffness [J]
 };
 
+/// Where rods have sections of their own, the half edges at an inner node have equal shares in it.
 HalfEdge half_edge(const Rods& rods, const WeldedEdge& edge) {
   const double length = 0.5 * rods.rest_lengths[edge.edge];
   const RodSection& section = rods.sections[edge.rod];
-  return {section.bending_stiffness / length, section.twisting_stiffness / length};
+  const SectionLengths& lengths = rods.section_lengths;
+  if (lengths.empty()) {
+    return {section.bending_stiffness / length, section.twisting_stiffness / length};
+  }
+  const bool is_end = edge.node == rods.first(edge.rod) || edge.node + 1 == rods.end(edge.rod);
+  const double share = is_end ? 1.0 : length / rods.rest_length_at(edge.node);
+  return {section.bending_stiffness / (share * lengths.bending[edge.node]),
+          section.twisting_stiffness / (share * lengths.twisting[edge.node])};
 }
 
 /// The welds between all edges that meet at a place, but for those of one rod that follow each
@@ -233,10 +241,13 @@ void Joints::close(Rods& rods, std::uint32_t rod) {
   if (options_.has_bend || !rods.angles.empty()) {
     Weld seam = make_weld(rods, {{{rod, last - 1, last, 1.0}, {rod, first, first, 1.0}}},
                           WeldPath::AS_GIVEN);
-    const double length = rods.rest_length_at_seam(rod);
+    const SectionLengths& lengths = rods.section_lengths;
+    const auto length = [&](const std::vector<double>& of_nodes) {
+      return lengths.empty() ? rods.rest_length_at_seam(rod) : of_nodes[first] + of_nodes[last];
+    };
     const RodSection& section = rods.sections[rod];
-    seam.bending = options_.has_bend ? section.bending_stiffness / length : 0.0;
-    seam.twisting = section.twisting_stiffness / length;
+    seam.bending = options_.has_bend ? section.bending_stiffness / length(lengths.bending) : 0.0;
+    seam.twisting = section.twisting_stiffness / length(lengths.twisting);
     seam.is_seam = true;
     parts_->welds.push_back(seam);
   }

@@ -7,6 +7,7 @@
 
 #include "fiber_proximity/sim/resolution.hpp"
 #include "src/sim/scene/keys.hpp"
+#include "src/sim/scene/named_nodes.hpp"
 #include "src/sim/scene/parts.hpp"
 #include "src/text/with_context.hpp"
 
@@ -21,14 +22,16 @@ RodMaterial read_preset(const YamlField& field) {
 }
 
 /// A preset's name, or the moduli and so on; with both, these replace the preset's.
-/// @param defaults the values that neither of them gives, and what is taken
-RodMaterial read_material(const YamlField& field, std::string& defaults) {
+/// @param otherwise what is taken for values that neither of them gives
+/// @param defaults  these values, and what is taken
+RodMaterial read_material(const YamlField& field, const RodMaterial& otherwise,
+                          std::string& defaults) {
   if (field.is_text()) {
     return read_preset(field);
   }
   field.require_map(key_names("material"));
   const auto preset = field.find("preset");
-  RodMaterial material = preset ? read_preset(*preset) : RodMaterial();
+  RodMaterial material = preset ? read_preset(*preset) : otherwise;
   const auto read = [&](const char* key, double& value, const char* unit) {
     if (!preset && !field.find(key)) {
       defaults += format(defaults.empty() ? "" : ", ", key, " ", value, unit);
@@ -126,6 +129,43 @@ void set_velocities(const FiberEntry& entry, Rods& rods) {
   }
 }
 
+/// @param material of the fibre
+void read_sections(const YamlField& entry, const RodMaterial& material, FiberEntry& fiber) {
+  const auto list = entry.find("sections");
+  if (!list || !(fiber.length > 0.0)) {  // without a length it is refused when it is cut
+    return;
+  }
+  double end = 0.0;  // of the section before
+  for (const YamlField& each : list->items()) {
+    each.require_map(key_names("section"));
+    const RodPart part = read_part(each, fiber.length);
+    if (part.from < end) {
+      throw std::invalid_argument(each.place() + " begins at " + std::to_string(part.from) +
+                                  " m, it must be behind the section before, which ends at " +
+                                  std::to_string(end) + " m");
+    }
+    end = part.to;
+    const YamlField given = each.get("material");
+    std::string inherited;
+    fiber.sections.push_back({part, with_context(given.place(), [&] {
+                                return solid_round_section(
+                                    read_material(given, material, inherited), fiber.radius);
+                              })});
+  }
+}
+
+/// Gives the last rod, which is that of an entry, its sections.
+void set_sections(const FiberEntry& entry, Rods& rods) {
+  const std::uint32_t rod = rods.count() - 1;
+  std::vector<RodSectionPart> parts;
+  for (const SectionEntry& each : entry.sections) {
+    parts.push_back({along_edges(each.part, entry.length, rods, rod), each.section});
+  }
+  if (!parts.empty()) {
+    rods.set_sections(rod, parts);
+  }
+}
+
 void read_body(const YamlField& entry, bool chooses_segments, FiberEntry& fiber) {
   if (!chooses_segments || entry.find("segments")) {
     fiber.segments = entry.get("segments").integer(1, max_segments);
@@ -138,9 +178,10 @@ void read_body(const YamlField& entry, bool chooses_segments, FiberEntry& fiber)
   read_velocities(entry, fiber);
   fiber.radius = entry.get("radius").number();
   const YamlField given = entry.get("material");
-  const RodMaterial material = read_material(given, fiber.material_defaults);
+  const RodMaterial material = read_material(given, RodMaterial(), fiber.material_defaults);
   fiber.section =
       with_context(given.place(), [&] { return solid_round_section(material, fiber.radius); });
+  read_sections(entry, material, fiber);
 }
 
 FiberEntry read_fiber(const YamlField& entry, bool chooses_segments) {
@@ -175,6 +216,7 @@ void add(const FiberEntry& entry, std::int64_t segments, SimDescription& scene) 
     with_fiber_name(entry.name, [&] {
       with_context(entry.place, [&] {
         scene.rods.add(moved, entry.radius, entry.section);
+        set_sections(entry, scene.rods);
         set_velocities(entry, scene.rods);
       });
     });

@@ -10,6 +10,12 @@
 
 namespace fiber {
 
+/// A part of a fibre that has a section of its own.
+struct SectionEntry {
+  RodPart part;  ///< along the curve [m]
+  RodSection section;
+};
+
 /// A fibre of a scene before it is cut into segments, or several of them by `repeat`.
 struct FiberEntry {
   std::string name;
@@ -18,6 +24,7 @@ struct FiberEntry {
   std::optional<std::int64_t> segments;
   double radius = 0.0;  ///< [m]
   RodSection section;
+  std::vector<SectionEntry> sections;
   std::optional<std::int64_t> count;  ///< none: it is not repeated
   std::string repeat_place;
   std::string material_defaults;  ///< values that its material leaves open; empty for none

@@ -67,7 +67,23 @@ std::vector<SceneMap> fiber_maps() {
                   "in place of `velocity`: of points at equal distances along the fibre from its "
                   "first end to its last, in between straight lines"),
         other_key("angular_velocity", three_numbers, "[0, 0, 0]", "rad/s",
-                  "about its centre of mass, to begin with; added to the above")}},
+                  "about its centre of mass, to begin with; added to the above"),
+        other_key("sections", "a list of parts of its length", "", "",
+                  "that have materials of their own; see below")}},
+      {"section",
+       "An entry of the list `sections` of a fibre, one behind the other. The radius is that of "
+       "the "
+       "fibre.",
+       false,
+       {number_key("from", at_least_0, "", "m",
+                   "along the fibre, where it begins: not before the end of the section before; 0 "
+                   "if it is absent"),
+        number_key("to", above_0, "", "m",
+                   "along the fibre, where it ends: the fibre's length at most, and that if it is "
+                   "absent"),
+        other_key("material", "a preset, or a map of moduli", needed, "",
+                  "as that of a fibre; values that a map without a preset leaves open are the "
+                  "fibre's")}},
       {"repeat",
        "The key `repeat` of a fibre: fibres `NAME_0`, `NAME_1`, and so on.",
        false,

@@ -85,7 +85,8 @@ void read_place(const YamlField& entry, const SimDescription& scene, Loads::Load
   if (node) {
     load.node = read_node(node, scene.rods.node_count(load.rod));
   } else {
-    load.part = read_part(entry, scene, load.rod);
+    const double length = scene.fibers[load.rod].length;
+    load.part = along_edges(read_part(entry, length), length, scene.rods, load.rod);
   }
 }
 

@@ -1,6 +1,6 @@
 #include "src/sim/scene/named_nodes.hpp"
 
-#include <cmath>
+#include <algorithm>
 #include <numeric>
 #include <set>
 
@@ -33,9 +33,8 @@ std::uint32_t read_node(const std::optional<YamlField>& node, std::uint32_t coun
   return node->text() == "last" ? last : static_cast<std::uint32_t>(node->integer(0, last));
 }
 
-RodPart read_part(const YamlField& entry, const SimDescription& scene, std::uint32_t rod) {
+RodPart read_part(const YamlField& entry, double length) {
   constexpr double rounding = 1e-6;  // of the length: that of an arc is measured along a polyline
-  const double length = scene.fibers[rod].length;
   const auto from = entry.find("from");
   const auto to = entry.find("to");
   RodPart part{from ? from->number() : 0.0, to ? to->number() : length};
@@ -45,12 +44,15 @@ RodPart read_part(const YamlField& entry, const SimDescription& scene, std::uint
   if (!(part.to > part.from && part.to <= (1.0 + rounding) * length)) {
     to->refuse(format("beyond `from` and at most the fibre's length, ", length, " m"));
   }
-  const Rods& rods = scene.rods;
+  part.to = std::min(part.to, length);
+  return part;
+}
+
+RodPart along_edges(const RodPart& part, double length, const Rods& rods, std::uint32_t rod) {
   const double edges = std::accumulate(rods.rest_lengths.begin() + rods.first(rod),
                                        rods.rest_lengths.begin() + rods.end(rod), 0.0);
-  part.from *= edges / length;
-  part.to = std::min(edges, part.to * (edges / length));
-  return part;
+  const double ratio = edges / length;
+  return {part.from * ratio, std::min(edges, part.to * ratio)};
 }
 
 }  // namespace fiber

@@ -17,11 +17,15 @@ std::vector<std::uint32_t> find_fibers(const YamlField& name, const std::vector<
 /// @throws std::invalid_argument naming file, line and value, and what is allowed
 std::uint32_t read_node(const std::optional<YamlField>& node, std::uint32_t count);
 
-/// Reads the keys `from` and `to` of an entry [m]: lengths along the fibre's shape, which is a
-/// little longer than its edges together.
-/// @returns the part in lengths of edges; the fibre's ends for what is not given
+/// Reads the keys `from` and `to` of an entry [m], lengths along the fibre's shape; the fibre's
+/// ends for what is not given.
+/// @param length of the shape [m]
 /// @throws std::invalid_argument naming file, line and value, for a part that leaves the fibre or
 ///         has no length
-RodPart read_part(const YamlField& entry, const SimDescription& scene, std::uint32_t rod);
+RodPart read_part(const YamlField& entry, double length);
+
+/// A part of a fibre's shape as a part of its edges, which together are a little shorter.
+/// @param length of the shape [m]
+RodPart along_edges(const RodPart& part, double length, const Rods& rods, std::uint32_t rod);
 
 }  // namespace fiber

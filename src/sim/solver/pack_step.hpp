@@ -22,6 +22,23 @@ void for_each_node(const RodPack& pack, std::size_t lanes, const Function& funct
   }
 }
 
+/// Loads the lengths of rods whose sections differ along them; those at the ends of a rod are of
+/// half an edge.
+inline void load_section_lengths(const SectionLengths& lengths, RodPack& pack) {
+  for (std::size_t lane = 0; lane < lane_count; ++lane) {
+    const std::uint32_t first = pack.first_nodes[lane];
+    for (std::uint32_t i = 0; i < pack.node_count; ++i) {
+      pack.inverse_bending_lengths[i][lane] = 1.0 / lengths.bending[first + i];
+      if (i + 1 < pack.node_count) {
+        pack.inverse_stretching_lengths[i][lane] = 1.0 / lengths.stretching[first + i];
+      }
+      if (pack.unknowns == 4) {
+        pack.inverse_twisting_lengths[i][lane] = 1.0 / lengths.twisting[first + i];
+      }
+    }
+  }
+}
+
 /// Loads the stiffnesses, masses and lengths, which do not change in a step.
 inline void load_constants(const Rods& rods, RodPack& pack) {
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
@@ -36,10 +53,17 @@ inline void load_constants(const Rods& rods, RodPack& pack) {
       pack.rest_lengths[i][lane] = length;
       if (i + 1 < pack.node_count) {
         const double before = i > 0 ? rods.rest_lengths[first + i - 1] : length;
-        pack.inverse_rest_lengths[i][lane] = 1.0 / length;
-        pack.inverse_node_lengths[i][lane] = 2.0 / (before + length);
+        pack.inverse_stretching_lengths[i][lane] = 1.0 / length;
+        pack.inverse_bending_lengths[i][lane] = 2.0 / (before + length);
       }
     }
+  }
+  if (pack.unknowns == 4) {
+    pack.inverse_twisting_lengths = pack.inverse_bending_lengths;
+  }
+  pack.has_sections = !rods.section_lengths.empty();
+  if (pack.has_sections) {
+    load_section_lengths(rods.section_lengths, pack);
   }
 }
 
@@ -87,8 +111,8 @@ class PackStep {
     system_.resize(pack_.node_count, pack_.unknowns, pack_.used);
     const std::size_t nodes = pack_.node_count;
     for (auto* array :
-         {&pack_.masses, &pack_.rest_lengths, &pack_.inverse_rest_lengths,
-          &pack_.inverse_node_lengths, &pack_.lengths, &pack_.inverse_lengths, &residuals_}) {
+         {&pack_.masses, &pack_.rest_lengths, &pack_.inverse_stretching_lengths,
+          &pack_.inverse_bending_lengths, &pack_.lengths, &pack_.inverse_lengths, &residuals_}) {
       array->resize(nodes);
     }
     pack_.tangents.resize(3 * nodes);
@@ -97,6 +121,7 @@ class PackStep {
         array->resize(3 * nodes);
       }
       pack_.director_twists.resize(nodes);
+      pack_.inverse_twisting_lengths.resize(nodes);
     }
     for (auto* array :
          {&pack_.positions, &inertias_, &scales_, &step_start_, &predicted_, &search_start_}) {
@@ -132,8 +157,8 @@ class PackStep {
         const std::uint32_t rod = pack_.rods[lane];
         const std::uint32_t edge = node - pack_.first_nodes[lane];
         // After the last node there is no edge: its angle stays as it is.
-        const double length = edge + 1 < pack_.node_count ? rods.rest_lengths[node] : 1.0;
-        const double inertia = rods.sections[rod].inertia_per_length * length;
+        const double inertia = edge + 1 < pack_.node_count ? rods.section_inertia(rod, node)
+                                                           : rods.sections[rod].inertia_per_length;
         inertias_[place + 3][lane] = inertia;
         scales_[place + 3][lane] = rods.radii[rod] * step_length_ / inertia;
         for (std::uint32_t k = 0; k < 3; ++k) {

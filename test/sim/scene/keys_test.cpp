@@ -92,7 +92,9 @@ std::string scene_with(const SceneMap& map, const std::string& key, const std::s
                         {"material", "rope"}})) +
            "]}\n";
   }
-  if (map.name == "repeat") {
+  if (map.name == "section") {
+    repeat = ", sections: [" + with(others({{"material", "rope"}})) + "]";
+  } else if (map.name == "repeat") {
     repeat = ", repeat: " + with(others({{"count", "2"}, {"offset", "[0, 1, 0]"}}));
   } else if (map.name == "material") {
     material = with("");

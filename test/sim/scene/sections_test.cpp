@@ -1,0 +1,72 @@
+// Sections of fibres, as scenes have them.
+#include "test/sim/scene/scene_fixture.hpp"
+
+namespace fiber {
+namespace {
+
+std::string with_sections(const std::string& sections) {
+  std::string text = scene_text(line, "[stretch, bend]");
+  text.replace(text.find("    segments: 4"), 15,
+               "    sections: [" + sections + "]\n    segments: 4");
+  return text;
+}
+
+TEST_F(SimSceneTest, SectionsHaveMaterialsOfTheirOwn) {
+  const SimScene bare = read(scene_text(line, "[stretch, bend]"));
+  const SimScene scene = read(
+      with_sections("{to: 0.25, material: {density: 1600}}, {from: 0.5, material: silicone_tube}"));
+  const Rods& rods = scene.stepper->rods();
+  EXPECT_TRUE(bare.stepper->rods().section_lengths.empty()) << "it names none";
+  const RodSection own = bare.stepper->rods().sections[0];
+  const RodSection silicone = solid_round_section(material_preset("silicone_tube"), 0.01);
+  EXPECT_EQ(rods.sections[0].bending_stiffness, own.bending_stiffness);
+  EXPECT_NEAR(rods.section_lengths.bending[0], 0.125, 1e-12) << "only the density differs";
+  EXPECT_NEAR(rods.section_lengths.bending[3],
+              0.25 * own.bending_stiffness / silicone.bending_stiffness, 1e-9);
+  const double per_length = own.mass_per_length;
+  EXPECT_NEAR(rods.masses[0], 2.0 * 0.125 * per_length, 1e-12);
+  EXPECT_NEAR(rods.masses[1], (2.0 + 1.0) * 0.125 * per_length, 1e-12);
+  EXPECT_NEAR(rods.masses[3], 0.25 * silicone.mass_per_length, 1e-12);
+}
+
+/// A curve is longer than its edges: a section to its end is to the last node all the same.
+TEST_F(SimSceneTest, SectionsOfCurvesAreMeasuredAlongTheCurve) {
+  std::string text =
+      scene_text("{arc: {from: [0, 0, 0], to: [1, 0, 0], length: 1.5}}", "[stretch, bend]");
+  text.replace(text.find("    segments: 4"), 15,
+               "    sections: [{from: 0.75, to: 1.5, material: {density: 1600}}]\n    segments: 4");
+  const Rods rods = read(text).stepper->rods();
+  EXPECT_NEAR(rods.masses[4], 2.0 * rods.masses[0], 1e-9);
+  EXPECT_NEAR(rods.masses[2], 1.5 * rods.masses[1], 1e-6);
+}
+
+TEST_F(SimSceneTest, SectionsThatCannotBeAreErrors) {
+  const std::vector<std::pair<std::string, std::string>> refused{
+      {"{from: 0.2, to: 0.6, material: hair}, {from: 0.5, material: rope}",
+       "4: fibers[0].sections[1] begins at 0.500000 m, it must be behind the section before, which "
+       "ends at 0.600000 m (fibre 'cable')"},
+      {"{from: 0.2, to: 1.2, material: hair}",
+       "4: fibers[0].sections[0].to is 1.2, it must be beyond `from` and at most the fibre's "
+       "length, 1 m (fibre 'cable')"},
+      {"{from: 0.2, to: 0.1, material: hair}",
+       "4: fibers[0].sections[0].to is 0.1, it must be beyond `from` and at most the fibre's "
+       "length, 1 m (fibre 'cable')"},
+      {"{from: -0.1, material: hair}",
+       "4: fibers[0].sections[0].from is -0.1, it must be at least 0 and less than the fibre's "
+       "length, 1 m (fibre 'cable')"},
+      {"{from: 0.2}", "4: fibers[0].sections[0] has no key 'material' (fibre 'cable')"},
+      {"{from: 0.2, material: {density: -1}}",
+       "4: fibers[0].sections[0].material: density is -1.000000, it must be positive and finite "
+       "(fibre 'cable')"},
+      {"{from: 0.2, radius: 0.1, material: hair}",
+       "4: fibers[0].sections[0] has the unknown key 'radius', known are: from, to, material "
+       "(fibre "
+       "'cable')"},
+  };
+  for (const auto& [sections, expected] : refused) {
+    EXPECT_EQ(error(with_sections(sections)), expected) << sections;
+  }
+}
+
+}  // namespace
+}  // namespace fiber
