@@ -24,33 +24,32 @@ struct GatheredPart {
   bool is_closed = false;
 };
 
-/// A point of a fibre, with what is known of it there.
-struct GatheredPoint {
-  Eigen::Vector3d point{};  // [m]
-  double radius = 0.0;      // [m]
-  std::int32_t joint = -1;
-};
-
-/// Parts and their points, those of a part one after another.
+/// Parts and their nodes, those of a part one after another; unlike elsewhere, each node has the
+/// radius of its point.
 struct GatheredParts {
   std::vector<GatheredPart> parts;
-  std::vector<GatheredPoint> points;
+  std::vector<FiberNode> nodes;
+  std::vector<std::int32_t> joints;  // by node; empty where no rank joins anything
 };
 
-GatheredParts parts_of(const DistributedFibers& fibers, const FiberTopology& topology) {
+GatheredParts parts_of(const DistributedFibers& fibers, const FiberTopology& topology,
+                       bool has_joints) {
   GatheredParts all;
-  all.points.reserve(fibers.parts.point_count());
+  all.nodes.reserve(fibers.parts.point_count());
   for (std::size_t part = 0; part < fibers.names.size(); ++part) {
     const std::uint32_t begin = fibers.parts.offsets()[part];
     const std::uint32_t end = fibers.parts.offsets()[part + 1];
     all.parts.push_back({{{fibers.names[part].fiber, fibers.names[part].first_segment},
                           end - begin - 1,
-                          all.points.size()},
+                          all.nodes.size()},
                          !topology.closed.empty() && topology.closed[part] != 0});
     for (std::uint32_t p = begin; p < end; ++p) {
-      all.points.push_back({fibers.parts.points()[p], fibers.parts.radius_at(part, p),
-                            topology.joints.empty() ? -1 : topology.joints[p]});
+      all.nodes.push_back({fibers.parts.points()[p], fibers.parts.radius_at(part, p)});
     }
+  }
+  all.joints = topology.joints;
+  if (has_joints) {
+    all.joints.resize(all.nodes.size(), -1);
   }
   return all;
 }
@@ -60,20 +59,22 @@ class WholeFiberBuilder {
  public:
   void add(const GatheredParts& all) {
     for (const GatheredPart& part : all.parts) {
-      const GatheredPoint* point = all.points.data() + part.run.begin;
-      const GatheredPoint* const end = point + part.run.count + 1;
+      std::uint64_t node = part.run.begin;
+      const std::uint64_t end = node + part.run.count + 1;
       if (part.run.first.segment == 0) {
         end_fiber();
         number_ = part.run.first.fiber;
         topology_.closed.push_back(part.is_closed ? 1 : 0);
       } else {
-        require_radius(part.run.first.segment, point->radius, radii_.back());
-        ++point;
+        require_radius(part.run.first.segment, all.nodes[node].radius, radii_.back());
+        ++node;
       }
-      for (; point != end; ++point) {
-        points_.push_back(point->point);
-        radii_.push_back(point->radius);
-        topology_.joints.push_back(point->joint);
+      for (; node != end; ++node) {
+        points_.push_back(all.nodes[node].point);
+        radii_.push_back(all.nodes[node].radius);
+        if (!all.joints.empty()) {
+          topology_.joints.push_back(all.joints[node]);
+        }
       }
     }
     end_fiber();
@@ -117,7 +118,7 @@ class WholeFiberBuilder {
       }
       points_.pop_back();
       radii_.pop_back();
-      topology_.joints.pop_back();
+      topology_.joints.resize(std::min(topology_.joints.size(), points_.size()));
     }
     offsets_.push_back(static_cast<std::uint32_t>(points_.size()));
   }
@@ -140,14 +141,30 @@ FiberNames names_of(const GatheredParts& all, const FiberNames& by_number) {
   return FiberNames(std::move(names));
 }
 
-/// The parts of all ranks as one set, in the order in which ranks have them.
-GatheredParts joined_parts(const PerRank<GatheredPart>& parts, std::vector<GatheredPoint> points) {
-  GatheredParts all{joined(parts), std::move(points)};
+/// Sends a list to rank 0.
+/// @return those of all ranks, one after another
+template <class Item>
+std::vector<Item> on_root(const Communicator& ranks, std::vector<Item> items) {
+  PerRank<Item> to(static_cast<std::size_t>(ranks.size()));
+  to[0] = std::move(items);
+  return joined(ranks.exchange(std::move(to)));
+}
+
+/// Brings the parts of all ranks together on rank 0, sorted.
+GatheredParts parts_on_root(const Communicator& ranks, GatheredParts own, bool has_joints) {
+  GatheredParts all;
+  all.parts = on_root(ranks, std::move(own.parts));
+  all.nodes = on_root(ranks, std::move(own.nodes));
+  if (has_joints) {
+    all.joints = on_root(ranks, std::move(own.joints));
+  }
   std::uint64_t begin = 0;
   for (GatheredPart& part : all.parts) {
     part.run.begin = begin;
     begin += part.run.count + 1;
   }
+  std::sort(all.parts.begin(), all.parts.end(),
+            [](const GatheredPart& x, const GatheredPart& y) { return x.run.first < y.run.first; });
   return all;
 }
 
@@ -161,17 +178,11 @@ WholeFibers gather_fibers(const Communicator& ranks, DistributedFibers fibers) {
   ranks.throw_on_all(error_in([&] { topology = part_topology(fibers.parts, fibers.topology); }));
   // Parts that are not joined alike are refused, too.
   const GlobalJoints joints(ranks, fibers.parts, fibers.names, topology);
-  GatheredParts own = parts_of(fibers, topology);
-  PerRank<GatheredPart> parts(static_cast<std::size_t>(ranks.size()));
-  PerRank<GatheredPoint> points(parts.size());
-  parts[0] = std::move(own.parts);
-  points[0] = std::move(own.points);
+  const bool has_joints = !joints.empty();
+  GatheredParts own = parts_of(fibers, topology, has_joints);
   const FiberNames names = std::move(fibers.fiber_names);
   fibers = {};
-  parts = ranks.exchange(std::move(parts));
-  GatheredParts all = joined_parts(parts, joined(ranks.exchange(std::move(points))));
-  std::sort(all.parts.begin(), all.parts.end(),
-            [](const GatheredPart& x, const GatheredPart& y) { return x.run.first < y.run.first; });
+  const GatheredParts all = parts_on_root(ranks, std::move(own), has_joints);
   WholeFibers whole;
   ranks.throw_on_all(error_in([&] {
     WholeFiberBuilder builder;

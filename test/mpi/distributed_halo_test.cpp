@@ -45,12 +45,10 @@ TEST(DistributedHalo, SharesAreAboutEqual) {
   EXPECT_LE(static_cast<double>(over_ranks(own, MPI_MAX)), 1.1 * share + 16.0);
 }
 
-TEST(DistributedHalo, CostsAreSharedOutWhereTheyAre) {
-  // Fibres that touch nothing, and as many that all but fill their place.
-  Random random;
+/// Fibres that touch nothing, and as many that all but fill their place, in turn.
+FiberAssembly sparse_and_dense(Random& random) {
   AssemblyBuilder builder;
-  const std::size_t count = 600;
-  for (std::size_t fiber = 0; fiber < 2 * count; ++fiber) {
+  for (std::size_t fiber = 0; fiber < 1200; ++fiber) {
     const bool is_dense = fiber % 2 == 0;
     std::vector<Eigen::Vector3d> points = random_walk(random, 33, 0.02);
     const Eigen::Vector3d start = points.front();
@@ -60,14 +58,18 @@ TEST(DistributedHalo, CostsAreSharedOutWhereTheyAre) {
     }
     builder.add_fiber(points);
   }
-  const FiberAssembly fibers = builder.build({1e-5});
+  return builder.build({1e-5});
+}
+
+/// Updates of the same fibres, until all ranks have as much to do.
+void expect_shared_out(const FiberAssembly& fibers, Random& random) {
   const DistributedFibers mine = scattered_to(own_rank(), fibers, scatter(fibers, 1, random));
   const std::vector<Contact> expected = answer("run_tree", fibers, within(0.02)).contacts;
   ASSERT_GT(expected.size(), 2 * fibers.segment_count());
   DistributedEngine engine(MPI_COMM_WORLD, one_thread());
   std::vector<double> most_of_mean;
   for (int frame = 0; frame < 4; ++frame) {
-    engine.update(mine.parts, mine.names);
+    engine.update(mine.parts, mine.names, mine.topology);
     DistributedResult result;
     engine.query(within(0.02), result);
     const auto most = static_cast<double>(over_ranks(result.contacts.size(), MPI_MAX));
@@ -82,6 +84,24 @@ TEST(DistributedHalo, CostsAreSharedOutWhereTheyAre) {
     EXPECT_LT(most_of_mean.back(), 1.3);
   }
   EXPECT_LT(engine.facts().split_count, 4U) << "what was evened out is left alone";
+}
+
+TEST(DistributedHalo, CostsAreSharedOutWhereTheyAre) {
+  Random random;
+  expect_shared_out(sparse_and_dense(random), random);
+}
+
+/// Each dense fibre with the next dense one, two by two: what is joined goes to other owners, too.
+TEST(DistributedHalo, CostsOfJoinedFibersAreSharedOutWhereTheyAre) {
+  Random random;
+  const FiberAssembly chains = sparse_and_dense(random);
+  FiberTopology topology;
+  topology.joint_tolerance = std::numeric_limits<double>::infinity();
+  topology.joints.assign(chains.point_count(), -1);
+  for (std::uint32_t fiber = 0; fiber < chains.fiber_count(); fiber += 2) {
+    topology.joints[chains.offsets()[fiber]] = static_cast<std::int32_t>(fiber / 4);
+  }
+  expect_shared_out({chains.points(), chains.offsets(), chains.radii(), topology}, random);
 }
 
 TEST(DistributedHalo, OnlyWhatIsNearComes) {

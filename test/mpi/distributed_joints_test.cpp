@@ -29,9 +29,9 @@ std::uint64_t stream_of_joined_fibers() { return static_cast<std::uint64_t>(rank
 
 /// Points of a joint a little apart, as a tracker has them.
 JoinedFibers with_noise(JoinedFibers fibers, Random& random) {
-  fibers.topology.joint_tolerance = 0.05;
+  fibers.topology.joint_tolerance = 0.2;
   for (Vector3d& point : fibers.points) {
-    point += random.in_cube(0.01);
+    point += random.in_cube(0.03);
   }
   return fibers;
 }
@@ -176,10 +176,11 @@ TEST(DistributedJoints, AreKnownWholeWhereTheyAreOwned) {
   // The split cuts through few rings.
   EXPECT_LE(over_ranks(facts.joined_segments, MPI_SUM),
             fibers.segment_count() + 50 * 4 * static_cast<std::size_t>(rank_count() - 1));
-  const FiberAssembly chains = walks(random, 30, 20, 0.1, 0.01);
-  const DistributedFibers chain = scattered_to(own_rank(), chains, scatter(chains, 3, random));
-  engine.update(chain.parts, chain.names, chain.topology);
-  EXPECT_EQ(engine.facts().joined_segments, 0U) << "chains cost nothing";
+  // Chains cost nothing, nor do numbers that one point alone has.
+  const auto rank = static_cast<std::uint64_t>(own_rank());
+  engine.update(FiberAssembly({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {0, 3}, {0.1}), {{rank, 0}},
+                {{}, {-1, own_rank(), -1}, {}});
+  EXPECT_EQ(engine.facts().joined_segments, 0U);
 }
 
 /// What is thrown on this rank; all ranks must throw the same.
