@@ -37,8 +37,8 @@ void PoseVelocity::add(double time, const Eigen::Isometry3d& pose) {
   rotation_ = rotation;
 }
 
-Twist PoseVelocity::find() const {
-  Twist twist;
+BodyTwist PoseVelocity::find() const {
+  BodyTwist twist;
   if (frames_.size() < 2) {
     return twist;
   }

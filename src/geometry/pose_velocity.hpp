@@ -9,7 +9,7 @@
 namespace fiber {
 
 /// How fast a body moves.
-struct Twist {
+struct BodyTwist {
   Eigen::Vector3d linear = Eigen::Vector3d::Zero();   ///< [m/s] of its origin
   Eigen::Vector3d angular = Eigen::Vector3d::Zero();  ///< [rad/s] about its origin, in the world
 };
@@ -37,7 +37,7 @@ class FIBER_PROXIMITY_EXPORT PoseVelocity {
   double time() const { return frames_.back().time; }
 
   /// Zero of fewer than two frames.
-  Twist find() const;
+  BodyTwist find() const;
 
  private:
   struct Frame {

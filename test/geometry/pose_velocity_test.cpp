@@ -12,7 +12,7 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
 /// Where a body of this pose and velocity is after some time.
-Isometry3d pose_after(const Isometry3d& pose, const Twist& twist, double time) {
+Isometry3d pose_after(const Isometry3d& pose, const BodyTwist& twist, double time) {
   Isometry3d after = pose;
   after.translation() += time * twist.linear;
   const double rate = twist.angular.norm();
@@ -28,7 +28,7 @@ TEST(PoseVelocity, IsThatOfABodyThatKeepsIt) {
   Random random;
   for (int round = 0; round < rounds(200); ++round) {
     // Up to 3 rad from frame to frame: more would be less the other way round.
-    const Twist twist{random.in_cube(), random.uniform(0.0, 3.0 / 0x1p-3) * random.direction()};
+    const BodyTwist twist{random.in_cube(), random.uniform(0.0, 3.0 / 0x1p-3) * random.direction()};
     Isometry3d pose = Isometry3d::Identity();
     pose.linear() =
         Eigen::AngleAxisd(random.uniform(0.0, 3.0), random.direction()).toRotationMatrix();

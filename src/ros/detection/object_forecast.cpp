@@ -34,7 +34,7 @@ class NameList {
 ObjectForecast::ObjectForecast(const fiber::Environment& environment, const ObjectTracks& tracks,
                                const ros::Time& stamp, double timeout, double horizon)
     : displacements(environment.objects().size()), time(horizon) {
-  std::vector<fiber::Twist> twists(displacements.size());
+  std::vector<fiber::BodyTwist> twists(displacements.size());
   NameList movers;
   NameList others;
   double max_rate = 0.0;  // [rad/s]
