@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "fiber_proximity/sim/effects.hpp"
 #include "fiber_proximity/sim/forces.hpp"
@@ -22,19 +23,12 @@ using Eigen::Vector3d;
 using Forces = TimeTable<Vector3d>;
 
 Vector3d momentum_under_loads(const Rods& rods) {
-  Vector3d sum = Vector3d::Zero();
-  for (std::size_t i = 0; i < rods.positions.size(); ++i) {
-    sum += rods.masses[i] * rods.velocities[i];
-  }
-  return sum;
+  return std::inner_product(rods.masses.begin(), rods.masses.end(), rods.velocities.begin(),
+                            Vector3d(Vector3d::Zero()));
 }
 
 double mass_under_loads(const Rods& rods) {
-  double sum = 0.0;
-  for (const double mass : rods.masses) {
-    sum += mass;
-  }
-  return sum;
+  return std::accumulate(rods.masses.begin(), rods.masses.end(), 0.0);
 }
 
 Rods one_rod(int segments = 10) {
@@ -350,25 +344,6 @@ TEST(AppliedLoads, RefusesWhatThereIsNot) {
             }),
             "entry 1 of a table has the time 0.000000 s, times must be finite and rise from 0");
   EXPECT_NE(error_of([] { Forces({{0.1, {0, 0, 0}}}, false); }), "no error");
-}
-
-TEST(AppliedLoads, GravityInTimeIsThatOfTheEndOfTheStep) {
-  const Forces table({{0.0, {0.0, 0.0, 0.0}}, {0.2, {0.0, 0.0, -4.0}}, {0.4, {3.0, 0.0, 0.0}}},
-                     true);
-  Stepper stepper(one_rod(),
-                  effects(std::make_unique<GravityInTime>(table), std::make_unique<Stretch>()),
-                  precise());
-  Vector3d velocity = Vector3d::Zero();
-  for (int i = 0; i < 100; ++i) {
-    stepper.step(0.01);
-    velocity += 0.01 * table.at(stepper.time());
-    ASSERT_LE((stepper.rods().velocities[3] - velocity).norm(), 1e-10) << "step " << i;
-  }
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(error_of([&] {
-              GravityInTime(Forces({{0.0, {0, 0, 0}}, {1.0, {nan, 0, 0}}}, false));
-            }),
-            "gravity: the acceleration must be finite");
 }
 
 }  // namespace

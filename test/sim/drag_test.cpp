@@ -1,8 +1,11 @@
+// What acts on rods from outside.
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "fiber_proximity/sim/effects.hpp"
+#include "test/support/error_of.hpp"
 #include "validation/sim/rod_scene.hpp"
 
 namespace fiber::test {
@@ -31,6 +34,27 @@ TEST(Drag, ARodFallsAsFastAsItsWidthInTheAirAllows) {
   for (const Vector3d& velocity : stepper.rods().velocities) {
     EXPECT_NEAR(velocity.z(), -speed, 1e-3 * speed);
   }
+}
+
+TEST(GravityInTime, IsThatOfTheEndOfTheStep) {
+  Rods rods;
+  rods.add(straight(Vector3d::Zero(), Vector3d::UnitX(), 10), 0.01, {1e4, 1.0, 0.8, 1.0, 1e-4});
+  const TimeTable<Vector3d> table(
+      {{0.0, {0.0, 0.0, 0.0}}, {0.2, {0.0, 0.0, -4.0}}, {0.4, {3.0, 0.0, 0.0}}}, true);
+  Stepper stepper(rods,
+                  effects(std::make_unique<GravityInTime>(table), std::make_unique<Stretch>()),
+                  precise());
+  Vector3d velocity = Vector3d::Zero();
+  for (int i = 0; i < 100; ++i) {
+    stepper.step(0.01);
+    velocity += 0.01 * table.at(stepper.time());
+    ASSERT_LE((stepper.rods().velocities[3] - velocity).norm(), 1e-10) << "step " << i;
+  }
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(error_of([&] {
+              GravityInTime(TimeTable<Vector3d>({{0.0, {0, 0, 0}}, {1.0, {nan, 0, 0}}}, false));
+            }),
+            "gravity: the acceleration must be finite");
 }
 
 }  // namespace
