@@ -51,6 +51,7 @@ add_library(fiber_proximity_python MODULE
   src/python/forces.cpp
   src/python/module.cpp
   src/python/options.cpp
+  src/python/prediction.cpp
   src/python/simulation.cpp
   src/python/simulation_bindings.cpp
   src/python/topology.cpp

@@ -41,6 +41,10 @@ void Simulation::step(std::uint32_t frames) {
   }
 }
 
+SimScene Simulation::copy() const {
+  return with([this](const SimScene& scene) { return copy_sim_scene(description_, scene, 1); });
+}
+
 void Simulation::reset() {
   const WithoutPythonLock others_may_run;
   SimScene scene = make_sim_scene(description_, threads_);

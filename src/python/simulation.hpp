@@ -24,6 +24,10 @@ class Simulation : public OnlyShared {
   /// Begins again.
   void reset();
 
+  /// A copy of the scene as it is.
+  /// @throws std::runtime_error if a step has failed
+  SimScene copy() const;
+
   /// Calls with the scene and returns what that returns.
   /// @throws std::runtime_error if a step has failed
   template <class Call>
@@ -56,6 +60,19 @@ struct HoldRequest {
 /// Holds a node, in place of what holds it.
 /// @throws std::invalid_argument as require_reach() and Attachment::add()
 void attach(SimScene& scene, std::uint32_t rod, std::int64_t node, const HoldRequest& request);
+
+/// The rod of a fibre by its name or, without one, its index, which may count from the end.
+/// @throws std::invalid_argument naming a fibre that is not there
+std::uint32_t find_fiber(const SimScene& scene, const std::string& name, std::int64_t index);
+
+/// A name or an index of a fibre.
+/// @throws py::type_error for what is neither
+std::pair<std::string, std::int64_t> fiber_argument(const py::object& fiber);
+
+/// Simulation.predict of Python, and what it says of itself.
+extern const char* const predict_doc;
+py::dict predict(const Simulation& simulation, double duration, const py::list& trajectories,
+                 double sample_period, double margin);
 
 /// Adds what forces are made of.
 void bind_forces(py::module& module);

@@ -14,6 +14,32 @@
 
 namespace fiber::python {
 
+std::uint32_t find_fiber(const SimScene& scene, const std::string& name, std::int64_t index) {
+  const auto& names = scene.fiber_names;
+  const auto count = static_cast<std::int64_t>(names.size());
+  if (!name.empty()) {
+    index = std::find(names.begin(), names.end(), name) - names.begin();
+  }
+  if (index < 0 || index >= count) {
+    throw std::invalid_argument("there is no fibre " +
+                                (name.empty() ? std::to_string(index) : quote(name)) +
+                                ", the scene has " + std::to_string(count));
+  }
+  return static_cast<std::uint32_t>(index);
+}
+
+std::pair<std::string, std::int64_t> fiber_argument(const py::object& fiber) {
+  if (py::isinstance<py::str>(fiber)) {
+    return {fiber.cast<std::string>(), -1};
+  }
+  try {
+    return {"", fiber.cast<std::int64_t>()};
+  } catch (const py::cast_error&) {
+    throw py::type_error("fiber is " + std::string(py::repr(fiber)) +
+                         ", it must be a name or an index");
+  }
+}
+
 namespace {
 
 /// Brings to json what it cannot write of a scene: numpy's arrays and numbers.
@@ -50,33 +76,6 @@ std::shared_ptr<Simulation> make(const py::object& scene, const py::object& fold
   SimDescription description = read_scene(scene, folder);
   const WithoutPythonLock others_may_run;
   return std::make_shared<Simulation>(std::move(description), most);
-}
-
-/// Index of a fibre that is named or counted.
-std::uint32_t find_fiber(const SimScene& scene, const std::string& name, std::int64_t index) {
-  const auto& names = scene.fiber_names;
-  const auto count = static_cast<std::int64_t>(names.size());
-  if (!name.empty()) {
-    index = std::find(names.begin(), names.end(), name) - names.begin();
-  }
-  if (index < 0 || index >= count) {
-    throw std::invalid_argument("there is no fibre " +
-                                (name.empty() ? std::to_string(index) : quote(name)) +
-                                ", the scene has " + std::to_string(count));
-  }
-  return static_cast<std::uint32_t>(index);
-}
-
-std::pair<std::string, std::int64_t> fiber_argument(const py::object& fiber) {
-  if (py::isinstance<py::str>(fiber)) {
-    return {fiber.cast<std::string>(), -1};
-  }
-  try {
-    return {"", fiber.cast<std::int64_t>()};
-  } catch (const py::cast_error&) {
-    throw py::type_error("fiber is " + std::string(py::repr(fiber)) +
-                         ", it must be a name or an index");
-  }
 }
 
 void attach_to(Simulation& simulation, const py::object& fiber, std::int64_t node,
@@ -260,6 +259,8 @@ void bind_simulation(py::module& module) {
            py::arg("director") = py::none(), py::arg("max_force") = 0.0, attach_doc)
       .def("detach", &detach_from, py::arg("fiber"), py::arg("node"),
            "Lets go of a node. ValueError if nothing holds it.")
+      .def("predict", &predict, py::arg("duration"), py::arg("trajectories") = py::list(),
+           py::arg("sample_period") = 0.0, py::arg("margin") = 0.1, predict_doc)
       .def("set_parameters", &set_parameters, py::arg("values"),
            "Changes parameters of effects, all or none: a dict of names, such as "
            "'gravity.acceleration', and numbers or vectors.")

@@ -79,6 +79,39 @@ class Simulations(unittest.TestCase):
         self.assertEqual(fibers.closed.tolist(), [False, True])
         self.assertEqual(fibers.joints[20], fibers.joints[21])
 
+    def test_what_is_predicted_comes(self):
+        scene = {'fibers': [CABLE], 'effects': ['gravity', 'stretch', 'bend', 'environment_contact', 'friction', 'attachment'],
+                 'environment': {'obstacles': [{'id': 'floor', 'primitives': [{'type': 'box', 'dimensions': [4, 4, 0.2]}],
+                                                'pose': {'position': [0, 0, 0.5]}}]}}
+        simulation = fp.Simulation(scene)
+        simulation.attach('cable', 0, [0, 0, 1])
+        simulation.step(10)
+        trajectory = {'fiber': 'cable', 'node': 0, 'times': [0.5], 'positions': [[0, 0.2, 1.1]]}
+        told = simulation.predict(1.0, [trajectory], sample_period=0.5, margin=2.0)
+        self.assertEqual((told['problem'], told['positions'].shape), ('', (3, 21, 3)))
+        np.testing.assert_allclose(told['times'], [0, 0.5, 1.0], atol=1e-9)
+        np.testing.assert_array_equal(told['positions'][0], simulation.positions)
+        np.testing.assert_allclose(told['positions'][2, 0], [0, 0.2, 1.1], atol=1e-3)
+        self.assertEqual(told['holds']['index'].tolist(), [0])
+        self.assertGreater(told['tensions']['force'][0], 0.0)
+        self.assertEqual(told['clearance_is_object'].tolist(), [True])
+        self.assertEqual(told['clearances'].shape, told['clearance_times'].shape)
+        self.assertEqual(told['touches']['is_object'].tolist(), [True] * len(told['touches']))
+        again = simulation.predict(1.0, [trajectory])
+        np.testing.assert_array_equal(again['positions'][0], told['positions'][2])
+        self.assertAlmostEqual(simulation.time, 10 / 60)
+        for bad, error in (
+                ({'fiber': 'rope', 'times': [1], 'positions': [[0, 0, 0]]}, "trajectory 0: there is no fibre 'rope'"),
+                ({'fiber': 'cable', 'times': [1]}, 'trajectory 0: it has no positions'),
+                ({'fiber': 'cable', 'times': [1, 2], 'positions': [[0, 0, 0]]}, 'trajectory 0: there are 1 positions for 2 times'),
+                ({**trajectory, 'speed': 1}, "trajectory 0: there is no key 'speed'"),
+                ({**trajectory, 'node': 99}, 'there is no node 99'),
+                ({**trajectory, 'times': [-1]}, 'trajectory 0: entry 0: time is -1 s')):
+            with self.assertRaisesRegex(ValueError, error):
+                simulation.predict(1.0, [bad])
+        with self.assertRaisesRegex(TypeError, 'trajectory 0 is 3, it must be a dict'):
+            simulation.predict(1.0, [3])
+
     def test_a_file_is_a_dict(self):
         config = pathlib.Path(__file__).resolve().parents[2] / 'config' / 'sim' / 'hanging_cable.yaml'
         from_file = fp.Simulation(config, threads=1)
