@@ -28,7 +28,8 @@ struct Request {
   std::string scene;
   double seconds = 0.0;
   std::string out;
-  std::string forces;  // empty for none
+  std::string forces;      // empty for none
+  std::string trajectory;  // empty for none
   std::uint32_t threads = 0;
 };
 
@@ -148,8 +149,11 @@ SimScene make_scene(const Request& request) {
     require_format(FileFormat::CSV, "--forces", request.forces);
   }
   const MeshSource meshes = mesh_files(std::filesystem::path(request.scene).parent_path());
-  SimScene scene =
-      make_sim_scene(read_sim_scene(load_yaml(request.scene), meshes), request.threads);
+  SimDescription description = read_sim_scene(load_yaml(request.scene), meshes);
+  if (!request.trajectory.empty()) {
+    replace_holds(load_yaml(request.trajectory), description);
+  }
+  SimScene scene = make_sim_scene(description, request.threads);
   if (!scene.frames.empty()) {
     const FollowedFrame& frame = scene.frames.front();
     throw std::invalid_argument(frame.what + " follows frame " + quote(frame.frame) +
@@ -239,6 +243,9 @@ void setup(CLI::App& app, Command& command) {
       ->required();
   app.add_option("--forces", request->forces,
                  "CSV file to write: what acts in the fibres and on them, frame by frame");
+  app.add_option("--trajectory", request->trajectory,
+                 "YAML file: a list of holds with their paths, as the effect attachment has them "
+                 "(docs/scene_keys.md), in place of the scene's at the same nodes");
   app.add_option("--threads", request->threads,
                  "most threads to use, 0: as many as there are cores; the frames are the same")
       ->capture_default_str();

@@ -65,6 +65,32 @@ TEST_F(Simulate, ThingsMoveAsTheyShould) {
   }
 }
 
+TEST_F(Simulate, HoldsGoAlongATrajectoryInPlaceOfTheirs) {
+  const std::string trajectory =
+      write("trajectory.yaml",
+            "- {fiber: lifted, path: [{time: 0}, {time: 0.25, position: [0.1, 0, 0.02]}]}\n"
+            "- {fiber: lifted, node: last, path: [{time: 0}]}\n");
+  const std::string scene = write("scene.yaml", ropes);
+  const std::vector<FiberFrame> written =
+      frames(scene, "--seconds 0.25 --trajectory " + trajectory);
+  ASSERT_EQ(written.size(), 16U);
+  const std::vector<Eigen::Vector3d>& begin = written.front().fibers.points();
+  const std::vector<Eigen::Vector3d>& end = written.back().fibers.points();
+  EXPECT_NEAR(end[0].x(), 0.1, 1e-3) << "it does not rise as in the scene";
+  EXPECT_NEAR(end[0].z(), 0.02, 1e-3);
+  EXPECT_NEAR((end[20] - begin[20]).norm(), 0.0, 1e-3) << "held, which the scene does not";
+  const auto error = [&](const std::string& text) {
+    const ProcessResult result =
+        run_process(FIBER_SIMULATE " " + scene + " --seconds 0.1 --out " + path("none.csv") +
+                    " --trajectory " + write("bad.yaml", text));
+    EXPECT_EQ(result.exit_code, 2);
+    return result.err;
+  };
+  EXPECT_NE(error("- {fiber: rope}\n").find("bad.yaml:1: "), std::string::npos);
+  EXPECT_NE(error("- {fiber: lifted, path: [{time: 1}, {time: 1}]}\n").find("bad.yaml:1: "),
+            std::string::npos);
+}
+
 TEST_F(Simulate, ThreadsMakeNoDifference) {
   const std::string scene = (source_folder() / "config/sim/demo.yaml").string();
   std::string first;

@@ -1,7 +1,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
+#include <utility>
 
 #include "src/geometry/smallest_rotation.hpp"
 #include "src/sim/scene/keys.hpp"
@@ -201,6 +203,21 @@ Eigen::Vector3d position_on(const SimHold& hold, double time) {
     }
   }
   return path.back().position;
+}
+
+void replace_holds(const YamlField& list, SimDescription& scene) {
+  if (scene.find_effect("attachment") == nullptr) {
+    throw std::invalid_argument(list.place() + ": the scene does not name the effect attachment");
+  }
+  const std::vector<SimHold> before = std::exchange(scene.holds, {});
+  read_holds(list, scene);
+  const std::vector<SimHold> replacing = scene.holds;
+  std::copy_if(before.begin(), before.end(), std::back_inserter(scene.holds),
+               [&](const SimHold& hold) {
+                 return std::none_of(replacing.begin(), replacing.end(), [&](const SimHold& other) {
+                   return other.rod == hold.rod && other.node == hold.node;
+                 });
+               });
 }
 
 std::function<Placement(double)> placement_of(const SimHold& hold, const SimDescription& scene,

@@ -145,6 +145,11 @@ using FrameTimer = std::function<std::vector<double>(const SimDescription& scene
 SimDescription read_sim_scene(const YamlField& document, const MeshSource& meshes,
                               const FrameTimer& timer = {});
 
+/// Holds nodes as told, in place of the holds that the scene has there.
+/// @param list as that of the effect attachment, which the scene must name
+/// @throws std::invalid_argument naming file, line, field and value, and what is allowed
+void replace_holds(const YamlField& list, SimDescription& scene);
+
 /// A parameter of an effect, one number or several, that may change between two steps.
 struct SimParameter {
   std::string name;  ///< effect.option, as in the scene: gravity.acceleration
@@ -205,7 +210,7 @@ struct SimScene : SimSettings {
   /// By hold, as Attachment::add() calls it: of holds whose paths may change.
   std::map<std::uint32_t, std::shared_ptr<const PlacementPath>> paths;
 
-  SimParameters parameters;                ///< of its effects
+  SimParameters parameters;  ///< of its effects
   std::string overlap_note;  ///< the overlaps that were separated at the beginning; empty without
 
   /// The force that the last step has left unbalanced at StepReport::worst [N].
