@@ -45,7 +45,7 @@ TEST(Reach, SharesLeadAsFarAsLimitsAllow) {
     const Vector3d to = from + std::pow(10.0, random.uniform(-3.0, 3.0)) * random.in_cube();
     std::vector<ReachLimit> limits;
     for (int i = random.integer(0, 3); i > 0; --i) {
-      limits.push_back({0, random.in_cube(), 0.0, random.uniform(0.0, 2.0)});
+      limits.push_back({0, 0, random.in_cube(), 0.0, random.uniform(0.0, 2.0)});
     }
     const double share = reachable_share(limits, from, to);
     ASSERT_GE(share, 0.0);
