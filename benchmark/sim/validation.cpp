@@ -111,13 +111,16 @@ void validate_loads(const Report& report) {
 
 void validate_joints(const Report& report) {
   constexpr double thousandth = 0.001;
+  // A heavy ring bends sharply where it hangs: its error at 50 segments is 0.6 %.
+  constexpr int ring_segments = 2 * segments;
   for (const double weight : {20.0, 100.0, 500.0}) {
     const HungRing theory = exact_hung_ring(weight);
-    const HungRing ring = simulated_hung_ring(weight, segments);
+    const HungRing ring = simulated_hung_ring(weight, ring_segments);
     const std::string scene = text("ρAgL³/EI", weight);
-    report({"ring, own weight", scene, "drop / L", segments, theory.drop, ring.drop, half_percent});
-    report(
-        {"ring, own weight", scene, "width / L", segments, theory.width, ring.width, half_percent});
+    report({"ring, own weight", scene, "drop / L", ring_segments, theory.drop, ring.drop,
+            half_percent});
+    report({"ring, own weight", scene, "width / L", ring_segments, theory.width, ring.width,
+            half_percent});
   }
   const auto theory = exact_truss();
   const auto truss = simulated_truss();
