@@ -33,7 +33,7 @@ class SimPredictTest : public CableSimTest {
     transform.transform.rotation.w = 1.0;
     broadcaster_.sendTransform(transform);
     reset();
-    step(30);
+    points_after(30);  // none of these is on its way any more
   }
 
   Predict::Response predict(const Predict::Request& request) {
