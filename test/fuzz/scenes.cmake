@@ -56,7 +56,7 @@ target_link_libraries(fuzzed_yaml PUBLIC fuzzed_shapes yaml-cpp ${ASSIMP_LIBRARY
 fuzz_target(obstacles fuzzed_yaml)
 fuzz_target(meshes fuzzed_yaml)
 
-sources_in(simulation sim sim/contact sim/effects sim/solver)
+sources_in(simulation sim sim/contact sim/effects sim/joint sim/solver)
 unwatched_library(simulation ${simulation})
 target_link_libraries(simulation PUBLIC fiber_queries)
 sources_in(sim_scene sim/scene)
