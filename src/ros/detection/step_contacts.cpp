@@ -79,11 +79,8 @@ void judge_pairs(const fiber::FiberMotion& motion, const Uncertainty& uncertaint
       }
     }
   }
-  const auto by_key = [](const MotionContact& x, const MotionContact& y) {
-    return x.key() < y.key();
-  };
-  std::sort(judged.contacts.begin(), judged.contacts.end(), by_key);
-  std::sort(judged.touching.begin(), judged.touching.end(), by_key);
+  std::sort(judged.contacts.begin(), judged.contacts.end(), fiber::by_key);
+  std::sort(judged.touching.begin(), judged.touching.end(), fiber::by_key);
   const bool was_limited = result.limit_reached;
   fiber::MotionCandidates candidates;
   candidates.counts = result.counts;
