@@ -48,24 +48,13 @@ py::dtype hold_force_dtype() {
                     sizeof(Force));
 }
 
-py::dtype load_force_dtype() {
-  using Force = RodForces::LoadForce;
+/// Of what exerts force and moment on nodes.
+/// @param name of the member that counts these
+template <class Force>
+py::dtype node_force_dtype(const char* name, std::uint32_t Force::*member) {
   const Force force{};
-  const auto at = [&](auto member) { return offset_of(force, member); };
-  return make_dtype({{"load", "u4", at(&Force::load)},
-                     {"fiber", "u4", at(&Force::rod)},
-                     {"node", "u4", at(&Force::node)},
-                     {"point", "(3,)f8", at(&Force::point)},
-                     {"force", "(3,)f8", at(&Force::force)},
-                     {"moment", "(3,)f8", at(&Force::moment)}},
-                    sizeof(Force));
-}
-
-py::dtype joint_force_dtype() {
-  using Force = RodForces::JointForce;
-  const Force force{};
-  const auto at = [&](auto member) { return offset_of(force, member); };
-  return make_dtype({{"joint", "u4", at(&Force::joint)},
+  const auto at = [&](auto each) { return offset_of(force, each); };
+  return make_dtype({{name, "u4", at(member)},
                      {"fiber", "u4", at(&Force::rod)},
                      {"node", "u4", at(&Force::node)},
                      {"point", "(3,)f8", at(&Force::point)},
@@ -80,8 +69,8 @@ Forces::Forces(RodForces& forces)
       twisting_moments(to_array(forces.twisting_moments)),
       contacts(to_array(contact_force_dtype(), forces.contacts)),
       holds(to_array(hold_force_dtype(), forces.holds)),
-      joints(to_array(joint_force_dtype(), forces.joints)),
-      loads(to_array(load_force_dtype(), forces.loads)) {}
+      joints(to_array(node_force_dtype("joint", &RodForces::JointForce::joint), forces.joints)),
+      loads(to_array(node_force_dtype("load", &RodForces::LoadForce::load), forces.loads)) {}
 
 }  // namespace
 

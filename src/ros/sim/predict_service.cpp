@@ -10,6 +10,7 @@
 #include "fiber_proximity/ros/conversions.hpp"
 #include "fiber_proximity/sim/joints.hpp"
 #include "fiber_proximity/sim/scene/prediction.hpp"
+#include "src/ros/detection/environment_detector.hpp"
 #include "src/ros/environment/obstacle_change.hpp"
 #include "src/ros/support/stopwatch.hpp"
 #include "src/sim/scene/reach.hpp"
@@ -100,9 +101,7 @@ void fill_in(const fiber::Prediction& told, const SceneCopy& copy, Response& res
                response.clearances.emplace_back());
     response.clearance_times.push_back(clearance.time);
   }
-  for (const fiber::EnvironmentObject& object : copy.scene.environment->objects()) {
-    response.object_names.push_back(object.name);
-  }
+  response.object_names = object_names(*copy.scene.environment);
   for (const fiber::PredictedTouch& touch : told.touches) {
     fiber_proximity::PredictedTouch& message = response.touches.emplace_back();
     message.fiber = touch.rod;

@@ -108,8 +108,13 @@ class Observer {
     scene_.environment->query(fibers_, query_, {}, result_);
     add_clearances(true);
     add_forces(scene_.stepper->forces());
-    prediction_.unbalanced_frames += scene_.stepper->report().unbalanced > 0 ? 1 : 0;
     prediction_.time = time();
+  }
+
+  /// To be called after each frame: before the first one the last step is that of the running
+  /// scene.
+  void count_unbalanced() {
+    prediction_.unbalanced_frames += scene_.stepper->report().unbalanced > 0 ? 1 : 0;
   }
 
   void sample() { prediction_.samples.push_back({time(), scene_.stepper->rods().positions}); }
@@ -277,6 +282,7 @@ Prediction predict(SimScene& scene, const PredictionOptions& options,
       observer.stop(error.what());
       break;
     }
+    observer.count_unbalanced();
     observer.look();
   }
   return observer.take();
