@@ -1,5 +1,5 @@
 // The nearest points of segments, one pair per lane. Included once per instruction set, so it has
-// the guard that Highway asks for instead of #pragma once.
+// the guard that Highway asks for instead of #pragma once; for one lane see geometry/lanes.hpp.
 #if defined(FIBER_SEGMENT_DISTANCE_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef FIBER_SEGMENT_DISTANCE_INL
 #undef FIBER_SEGMENT_DISTANCE_INL
@@ -7,13 +7,9 @@
 #define FIBER_SEGMENT_DISTANCE_INL
 #endif
 
-#include <hwy/highway.h>
+#include "src/geometry/lanes.hpp"
 
-HWY_BEFORE_NAMESPACE();
-namespace fiber {
-namespace HWY_NAMESPACE {
-
-namespace hn = hwy::HWY_NAMESPACE;
+FIBER_LANES_BEGIN
 
 /// The algorithm of segment_distance() in as many lanes of double or float as D has. Every
 /// operation is rounded on its own, in the same order for any D: no multiplication is fused with an
@@ -38,12 +34,12 @@ class LaneDistance {
     Vector w_v;  // p0 − q1
   };
 
-  static Vector subtract(const Vector& a, const Vector& b) {
+  FIBER_LANE_MEMBER static Vector subtract(const Vector& a, const Vector& b) {
     return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
   }
 
   /// Largest difference of coordinates along one axis, of all four points.
-  static V extent(const Vector& p0, const Vector& p1, const Vector& q0, const Vector& q1) {
+  FIBER_LANE_MEMBER static V extent(const Vector& p0, const Vector& p1, const Vector& q0, const Vector& q1) {
     return hn::Max(extent(p0.x, p1.x, q0.x, q1.x),
                    hn::Max(extent(p0.y, p1.y, q0.y, q1.y), extent(p0.z, p1.z, q0.z, q1.z)));
   }
@@ -54,7 +50,7 @@ class LaneDistance {
   Vector delta;  // from q's point to p's point [m]
   V squared;     // |delta|² [m²]
 
-  explicit LaneDistance(const Differences& d) {
+  FIBER_LANE_MEMBER explicit LaneDistance(const Differences& d) {
     const V zero = hn::Zero(D());
     const V one = hn::Set(D(), hn::TFromD<D>(1));
     const V uu = dot(d.u, d.u);
@@ -83,21 +79,21 @@ class LaneDistance {
   }
 
  private:
-  static V extent(V p0, V p1, V q0, V q1) {
+  FIBER_LANE_MEMBER static V extent(V p0, V p1, V q0, V q1) {
     return hn::Sub(hn::Max(hn::Max(p0, p1), hn::Max(q0, q1)),
                    hn::Min(hn::Min(p0, p1), hn::Min(q0, q1)));
   }
-  static Vector add(const Vector& a, const Vector& b) {
+  FIBER_LANE_MEMBER static Vector add(const Vector& a, const Vector& b) {
     return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)};
   }
-  static Vector negative(const Vector& a) { return {hn::Neg(a.x), hn::Neg(a.y), hn::Neg(a.z)}; }
-  static Vector scaled(V factor, const Vector& a) {
+  FIBER_LANE_MEMBER static Vector negative(const Vector& a) { return {hn::Neg(a.x), hn::Neg(a.y), hn::Neg(a.z)}; }
+  FIBER_LANE_MEMBER static Vector scaled(V factor, const Vector& a) {
     return {hn::Mul(factor, a.x), hn::Mul(factor, a.y), hn::Mul(factor, a.z)};
   }
-  static V dot(const Vector& a, const Vector& b) {
+  FIBER_LANE_MEMBER static V dot(const Vector& a, const Vector& b) {
     return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
   }
-  static Vector cross(const Vector& a, const Vector& b) {
+  FIBER_LANE_MEMBER static Vector cross(const Vector& a, const Vector& b) {
     return {hn::Sub(hn::Mul(a.y, b.z), hn::Mul(a.z, b.y)),
             hn::Sub(hn::Mul(a.z, b.x), hn::Mul(a.x, b.z)),
             hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x))};
@@ -105,7 +101,7 @@ class LaneDistance {
 
   /// Parameter in [0, 1] of the projection of a point at `offset` from a segment's start; 0 on a
   /// segment of no length.
-  static V project(const Vector& offset, const Vector& direction, V squared_length) {
+  FIBER_LANE_MEMBER static V project(const Vector& offset, const Vector& direction, V squared_length) {
     const V along = dot(offset, direction);
     const V parameter =
         hn::IfThenElse(hn::Lt(along, squared_length), hn::Div(along, squared_length),
@@ -113,7 +109,7 @@ class LaneDistance {
     return hn::IfThenElseZero(hn::Gt(along, hn::Zero(D())), parameter);
   }
 
-  void consider(V other_s, V other_t, const Vector& other_delta) {
+  FIBER_LANE_MEMBER void consider(V other_s, V other_t, const Vector& other_delta) {
     const V other_squared = dot(other_delta, other_delta);
     const auto closer = hn::Lt(other_squared, squared);
     s = hn::IfThenElse(closer, other_s, s);
@@ -125,7 +121,5 @@ class LaneDistance {
   }
 };
 
-}  // namespace HWY_NAMESPACE
-}  // namespace fiber
-HWY_AFTER_NAMESPACE();
+FIBER_LANES_END
 #endif

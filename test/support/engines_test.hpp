@@ -7,6 +7,7 @@
 
 #include "fiber_proximity/query/engine.hpp"
 #include "test/support/assemblies.hpp"
+#include "test/support/cuda_on_host.hpp"
 #include "test/support/engine_names.hpp"
 #include "test/support/random.hpp"
 
@@ -43,7 +44,12 @@ class EnginesTest : public testing::TestWithParam<std::string> {
 };
 
 /// Parameters of tests of all engines, and their names.
-inline auto all_engines() { return testing::ValuesIn(all_engine_names()); }
+inline auto all_engines() {
+  std::vector<std::string> names = all_engine_names();
+  register_cuda_on_host();
+  names.emplace_back("cuda_tree");
+  return testing::ValuesIn(names);
+}
 inline std::string name_of_engine(const testing::TestParamInfo<std::string>& engine) {
   return test_name(engine.param);
 }

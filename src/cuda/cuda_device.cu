@@ -1,0 +1,293 @@
+#include <cuda_runtime.h>
+
+#include <algorithm>
+#include <cub/device/device_radix_sort.cuh>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "src/cuda/device_of.hpp"
+#include "src/cuda/device_warp.cuh"
+#include "src/cuda/pinned_copy.hpp"
+
+namespace fiber {
+namespace {
+
+constexpr int warps_per_block = 4;
+constexpr int threads_per_block = warps_per_block * warp_width;
+
+template <class Call>
+__global__ void __launch_bounds__(threads_per_block)
+    run_each(std::uint32_t count, const __grid_constant__ Call call) {
+  const std::uint32_t index = blockIdx.x * threads_per_block + threadIdx.x;
+  if (index < count) {
+    call(index);
+  }
+}
+
+template <class Call>
+__global__ void __launch_bounds__(threads_per_block)
+    run_warps(std::uint32_t count, const __grid_constant__ Call call) {
+  __shared__ typename Call::Scratch scratch[warps_per_block];
+  const std::uint32_t warp = threadIdx.x / warp_width;
+  const std::uint32_t index = blockIdx.x * warps_per_block + warp;
+  if (index < count) {
+    call(DeviceWarp(), index, scratch[warp]);
+  }
+}
+
+std::string in_megabytes(std::size_t bytes) {
+  constexpr std::size_t megabyte = 1000000;
+  return std::to_string((bytes + megabyte - 1) / megabyte) + " MB";
+}
+
+/// @throws std::runtime_error
+void check(cudaError_t error) {
+  if (error != cudaSuccess) {
+    throw std::runtime_error(std::string("cuda_tree: the GPU has failed: ") +
+                             cudaGetErrorString(error) + " (" + cudaGetErrorName(error) +
+                             "); this process cannot use it any more");
+  }
+}
+
+/// @throws std::runtime_error saying how much was needed and how much there is
+void* allocate(std::size_t bytes) {
+  void* data = nullptr;
+  const cudaError_t error = cudaMalloc(&data, bytes);
+  if (error == cudaErrorMemoryAllocation) {
+    cudaGetLastError();  // it is reported once
+    std::size_t available = 0;
+    std::size_t total = 0;
+    check(cudaMemGetInfo(&available, &total));
+    throw std::runtime_error("cuda_tree: the GPU has no room for " + in_megabytes(bytes) +
+                             " more: " + in_megabytes(available) + " of " + in_megabytes(total) +
+                             " are free");
+  }
+  check(error);
+  return data;
+}
+
+/// Memory of the GPU.
+template <class T>
+class CudaBuffer {
+ public:
+  CudaBuffer() = default;
+  ~CudaBuffer() { cudaFree(data_); }
+  CudaBuffer(const CudaBuffer&) = delete;
+  CudaBuffer& operator=(const CudaBuffer&) = delete;
+
+  void resize(std::size_t count) {
+    if (count > capacity_) {
+      cudaFree(data_);
+      data_ = nullptr;
+      capacity_ = 0;
+      size_ = 0;
+      data_ = static_cast<T*>(allocate(count * sizeof(T)));
+      capacity_ = count;
+    }
+    size_ = count;
+  }
+  void swap(CudaBuffer& other) {
+    std::swap(data_, other.data_);
+    std::swap(size_, other.size_);
+    std::swap(capacity_, other.capacity_);
+  }
+
+  T* data() { return data_; }
+  const T* data() const { return data_; }
+  std::size_t size() const { return size_; }
+  std::size_t bytes() const { return capacity_ * sizeof(T); }
+
+ private:
+  T* data_ = nullptr;
+  std::size_t size_ = 0;
+  std::size_t capacity_ = 0;
+};
+
+/// Memory of the host that the GPU reads and writes by itself: what goes over passes through it, in
+/// pieces, while the next is copied.
+class PinnedPieces {
+ public:
+  static constexpr std::size_t piece_bytes = std::size_t{1} << 22U;
+
+  PinnedPieces() {
+    for (Piece& piece : pieces_) {
+      check(cudaMallocHost(&piece.data, piece_bytes));
+      check(cudaEventCreateWithFlags(&piece.done, cudaEventDisableTiming));
+    }
+  }
+  ~PinnedPieces() {
+    for (Piece& piece : pieces_) {
+      cudaEventDestroy(piece.done);
+      cudaFreeHost(piece.data);
+    }
+  }
+  PinnedPieces(const PinnedPieces&) = delete;
+  PinnedPieces& operator=(const PinnedPieces&) = delete;
+
+  void upload(const void* from, std::size_t bytes, void* to, cudaStream_t stream) {
+    for (std::size_t begin = 0; begin < bytes; begin += piece_bytes) {
+      const Piece& piece = next();
+      check(cudaEventSynchronize(piece.done));  // that the GPU has read what was there
+      const std::size_t size = std::min(piece_bytes, bytes - begin);
+      copy_on_threads(piece.data, static_cast<const char*>(from) + begin, size);
+      check(cudaMemcpyAsync(static_cast<char*>(to) + begin, piece.data, size,
+                            cudaMemcpyHostToDevice, stream));
+      check(cudaEventRecord(piece.done, stream));
+    }
+  }
+
+  void download(const void* from, std::size_t bytes, void* to, cudaStream_t stream) {
+    std::size_t asked = 0;
+    std::size_t got = 0;
+    int first = 0;
+    int count = 0;
+    while (got < bytes) {
+      for (; asked < bytes && count < piece_count; ++count) {
+        const Piece& piece = pieces_[(first + count) % piece_count];
+        const std::size_t size = std::min(piece_bytes, bytes - asked);
+        check(cudaMemcpyAsync(piece.data, static_cast<const char*>(from) + asked, size,
+                              cudaMemcpyDeviceToHost, stream));
+        check(cudaEventRecord(piece.done, stream));
+        asked += size;
+      }
+      const Piece& piece = pieces_[first];
+      check(cudaEventSynchronize(piece.done));
+      const std::size_t size = std::min(piece_bytes, bytes - got);
+      copy_on_threads(static_cast<char*>(to) + got, piece.data, size);
+      got += size;
+      first = (first + 1) % piece_count;
+      --count;
+    }
+  }
+
+ private:
+  static constexpr int piece_count = 4;
+  struct Piece {
+    void* data = nullptr;
+    cudaEvent_t done = nullptr;
+  };
+
+  const Piece& next() {
+    next_ = (next_ + 1) % piece_count;
+    return pieces_[next_];
+  }
+
+  Piece pieces_[piece_count];
+  int next_ = 0;
+};
+
+/// A GPU, in a stream of its own.
+class CudaExecutor {
+ public:
+  template <class T>
+  using Buffer = CudaBuffer<T>;
+
+  CudaExecutor() { check(cudaStreamCreateWithFlags(&stream_, cudaStreamNonBlocking)); }
+  ~CudaExecutor() { cudaStreamDestroy(stream_); }
+  CudaExecutor(const CudaExecutor&) = delete;
+  CudaExecutor& operator=(const CudaExecutor&) = delete;
+
+  template <class T>
+  void upload(const T* from, std::size_t count, Buffer<T>& to) {
+    to.resize(count);
+    pinned_.upload(from, count * sizeof(T), to.data(), stream_);
+  }
+
+  template <class T>
+  void download(const Buffer<T>& from, std::size_t count, T* to) {
+    pinned_.download(from.data(), count * sizeof(T), to, stream_);
+  }
+
+  template <class T>
+  void zero(Buffer<T>& buffer) {
+    check(cudaMemsetAsync(buffer.data(), 0, buffer.size() * sizeof(T), stream_));
+  }
+
+  template <class Call>
+  void for_each(std::uint32_t count, const Call& call) {
+    const std::uint32_t blocks = (count + threads_per_block - 1) / threads_per_block;
+    run_each<<<blocks, threads_per_block, 0, stream_>>>(count, call);
+    check(cudaGetLastError());
+  }
+
+  template <class Call>
+  void for_each_warp(std::uint32_t count, const Call& call) {
+    const std::uint32_t blocks = (count + warps_per_block - 1) / warps_per_block;
+    run_warps<<<blocks, threads_per_block, 0, stream_>>>(count, call);
+    check(cudaGetLastError());
+  }
+
+  void sort_by_key(Buffer<std::uint32_t>& keys, Buffer<std::uint32_t>& values, std::size_t count,
+                   int bits) {
+    other_keys_.resize(count);
+    other_values_.resize(count);
+    with_memory([&](void* memory, std::size_t& bytes) {
+      return cub::DeviceRadixSort::SortPairs(memory, bytes, keys.data(), other_keys_.data(),
+                                             values.data(), other_values_.data(), count, 0, bits,
+                                             stream_);
+    });
+    keys.swap(other_keys_);
+    values.swap(other_values_);
+  }
+
+  void sort(Buffer<std::uint64_t>& keys, std::size_t count, int bits) {
+    constexpr int half = 32;
+    other_pairs_.resize(keys.size());
+    for (const int first : {0, half}) {
+      with_memory([&](void* memory, std::size_t& bytes) {
+        return cub::DeviceRadixSort::SortKeys(memory, bytes, keys.data(), other_pairs_.data(),
+                                              count, first, first + bits, stream_);
+      });
+      keys.swap(other_pairs_);
+    }
+  }
+
+ private:
+  /// Calls as CUB wants it: once to learn how many bytes it works in.
+  template <class Call>
+  void with_memory(const Call& call) {
+    std::size_t bytes = 0;
+    check(call(nullptr, bytes));
+    memory_.resize(std::max<std::size_t>(bytes, 1));
+    check(call(memory_.data(), bytes));
+  }
+
+  cudaStream_t stream_ = nullptr;
+  PinnedPieces pinned_;
+  CudaBuffer<char> memory_;
+  CudaBuffer<std::uint32_t> other_keys_;
+  CudaBuffer<std::uint32_t> other_values_;
+  CudaBuffer<std::uint64_t> other_pairs_;
+};
+
+/// @throws std::runtime_error if there is no GPU that serves
+void require_device() {
+  const std::string wanted =
+      "cuda_tree needs an NVIDIA GPU of compute capability 7.5 or newer and a driver for CUDA " +
+      std::to_string(CUDART_VERSION / 1000) + "; ";
+  int count = 0;
+  const cudaError_t error = cudaGetDeviceCount(&count);
+  if (error != cudaSuccess) {
+    cudaGetLastError();
+    throw std::runtime_error(wanted + "asked for one, CUDA says: " + cudaGetErrorString(error));
+  }
+  if (count == 0) {
+    throw std::runtime_error(wanted + "CUDA finds none");
+  }
+  cudaDeviceProp device;
+  check(cudaGetDeviceProperties(&device, 0));
+  if (10 * device.major + device.minor < 75) {
+    throw std::runtime_error(wanted + "the first is " + device.name + ", of " +
+                             std::to_string(device.major) + "." + std::to_string(device.minor));
+  }
+}
+
+}  // namespace
+
+std::unique_ptr<Device> make_cuda_device() {
+  require_device();
+  return std::make_unique<DeviceOf<CudaExecutor>>(std::make_shared<CudaExecutor>());
+}
+
+}  // namespace fiber

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "src/cuda/find_pairs.hpp"
+
+namespace fiber {
+
+/// Fibres in the memory of the host, as a tree on a device takes them.
+struct HostFibers {
+  const double* coordinates = nullptr;  ///< three per point [m]
+  std::size_t point_count = 0;
+  /// By first point; none where all have the one [m].
+  const double* radii = nullptr;
+  double radius = 0.0;    ///< [m]
+  double origin[3] = {};  ///< [m] that the tree is relative to
+};
+
+/// Which points start segments, and of which fibre; changes with the topology only.
+struct HostTopology {
+  std::vector<std::uint32_t> first_points;
+  std::vector<std::uint32_t> fibers;  ///< by point
+};
+
+/// A tree over the segments of fibres, on a device.
+class DeviceTree {
+ public:
+  DeviceTree() = default;
+  virtual ~DeviceTree() = default;
+  DeviceTree(const DeviceTree&) = delete;
+  DeviceTree& operator=(const DeviceTree&) = delete;
+
+  virtual void set_topology(const HostTopology& topology) = 0;
+
+  /// Builds it anew for points of this topology.
+  virtual void update(const HostFibers& fibers) = 0;
+
+  virtual const SegmentTreeView& view() const = 0;
+  virtual const std::uint32_t* fibers_by_point() const = 0;
+  virtual std::size_t point_count() const = 0;
+
+  /// [bytes] of the device
+  virtual std::size_t memory_bytes() const = 0;
+};
+
+/// Where trees are built and pairs are found: a GPU, or this processor in its place.
+class Device {
+ public:
+  Device() = default;
+  virtual ~Device() = default;
+  Device(const Device&) = delete;
+  Device& operator=(const Device&) = delete;
+
+  virtual std::unique_ptr<DeviceTree> make_tree() = 0;
+
+  /// Finds the pairs of some leaves of a with b. Calls must not overlap.
+  /// @param most pairs there may be
+  /// @param keys in ascending order; none if there are more
+  /// @return how many there are
+  virtual std::uint64_t find(const DeviceTree& a, std::uint32_t first_leaf,
+                             std::uint32_t leaf_count, const DeviceTree& b, const PairRule& rule,
+                             std::uint64_t most, std::vector<std::uint64_t>& keys) = 0;
+
+  /// [bytes] that pairs take, beside trees
+  virtual std::size_t memory_bytes() const = 0;
+};
+
+/// Kernels as loops on this processor: the same answers without a GPU, for tests.
+std::unique_ptr<Device> make_host_device();
+
+/// The GPU that CUDA gives first.
+/// @throws std::runtime_error if there is none that serves, saying what was looked for
+std::unique_ptr<Device> make_cuda_device();
+
+}  // namespace fiber

@@ -1,0 +1,261 @@
+#pragma once
+
+#include <cstdint>
+
+#include "src/cuda/segment_tree.hpp"
+
+namespace fiber {
+
+/// Which pairs of segments are looked for.
+struct PairRule {
+  bool self = true;    ///< pairs of one tree with itself, each once, the smaller first point first
+  float bound = 0.0F;  ///< [m] whose surfaces may come within this
+  /// Only pairs of one tree: those of one fibre whose indices differ by at most this are none.
+  std::uint32_t neighbour_skip = 0;
+  bool same_fiber = true;        ///< whether pairs of one fibre are wanted
+  bool different_fibers = true;  ///< and those of two
+};
+
+/// Looks for the pairs of leaves of one tree, a warp each, with all of another; or of one tree with
+/// itself, where pairs with earlier leaves are left to those.
+///
+/// A warp goes down the other tree with the box around its leaf, a lane a child; the children that
+/// are near wait on a stack. At a leaf each of its segments is held against that leaf's box, and
+/// each of the other's against the warp's; then the warp runs over the fewer of the two. Pairs
+/// whose boxes overlap wait in a queue until every lane has one, so that all take part in the test
+/// of distance.
+struct FindPairs {
+  struct Scratch {
+    // Each level leaves at most 31 nodes on the stack while it is gone down from the last.
+    std::uint32_t stack[31 * SegmentTreeView::max_levels + 2];
+    TreeSegment mine[warp_width];
+    std::uint32_t queue[2 * warp_width];
+  };
+
+  SegmentTreeView a;
+  SegmentTreeView b;
+  PairRule rule;
+  const std::uint32_t* fibers;  ///< by first point; those of the one tree, for the rule
+  std::uint32_t first_leaf;     ///< of a: that of the first warp
+  std::uint64_t* pairs;         ///< room for the keys of pairs
+  std::uint64_t capacity;
+  std::uint64_t* count;  ///< of all that were found, also of those there was no room for
+
+  template <class Warp>
+  FIBER_ON_DEVICE void operator()(Warp warp, std::uint32_t index, Scratch& scratch) const {
+    Search<Warp>(*this, warp, first_leaf + index, scratch).run();
+  }
+
+ private:
+  static constexpr std::uint32_t place_mask = SegmentTreeView::max_segments - 1;
+  static constexpr int place_bits = SegmentTreeView::place_bits;
+
+  template <class Warp>
+  class Search {
+   public:
+    FIBER_ON_DEVICE Search(const FindPairs& what, Warp warp, std::uint32_t leaf, Scratch& scratch)
+        : what_(what), warp_(warp), leaf_(leaf), scratch_(scratch) {}
+
+    FIBER_ON_DEVICE void run() {
+      const SegmentTreeView& a = what_.a;
+      warp_.each([&](int lane) {
+        const TreeSegment& segment = a.segments[smaller(place(leaf_, lane), a.segment_count - 1)];
+        scratch_.mine[lane] = segment;
+        mine_[lane] = box_of(segment, what_.rule.bound);
+      });
+      whole_ = warp_.reduce(mine_, [](TreeBox& x, const TreeBox& y) { x.take(y); });
+      warp_.each([&](int lane) {
+        if (lane == 0) {
+          scratch_.stack[0] = static_cast<std::uint32_t>(what_.b.level_count) << place_bits;
+        }
+      });
+      warp_.sync();
+      int size = 1;
+      while (size > 0) {
+        --size;
+        const std::uint32_t entry = scratch_.stack[size];
+        warp_.sync();
+        const int level = static_cast<int>(entry >> place_bits);
+        const std::uint32_t node = entry & place_mask;
+        if (level > 0) {
+          size = go_down(level - 1, node, size);
+        } else {
+          meet_leaf(node);
+        }
+      }
+      test(waiting_);
+    }
+
+   private:
+    FIBER_ON_DEVICE static std::uint32_t place(std::uint32_t node, int lane) {
+      return node * warp_width + static_cast<std::uint32_t>(lane);
+    }
+    FIBER_ON_DEVICE static std::uint32_t smaller(std::uint32_t x, std::uint32_t y) {
+      return x < y ? x : y;
+    }
+
+    /// By value: a choice of references would keep both in memory.
+    FIBER_ON_DEVICE static TreeBox chosen(bool first, const TreeBox& x, const TreeBox& y) {
+      TreeBox box{};
+      for (int axis = 0; axis < 3; ++axis) {
+        box.lower[axis] = first ? x.lower[axis] : y.lower[axis];
+        box.upper[axis] = first ? x.upper[axis] : y.upper[axis];
+      }
+      return box;
+    }
+
+    /// Puts the near ones of a node's children, which are of this level, onto the stack.
+    FIBER_ON_DEVICE int go_down(int level, std::uint32_t node, int size) {
+      const TreeBox* const boxes = what_.b.boxes[level];
+      const std::uint32_t count = what_.b.box_counts[level];
+      constexpr int bits_per_level = 5;
+      const std::uint32_t near = warp_.ballot([&](int lane) {
+        const std::uint32_t child = place(node, lane);
+        // The leaves below it end here; all earlier ones than this look for it themselves.
+        const std::uint64_t end = (std::uint64_t{child} + 1) << (bits_per_level * level);
+        return child < count && (!what_.rule.self || end > leaf_) && overlap(whole_, boxes[child]);
+      });
+      warp_.each([&](int lane) {
+        if ((near & bit_of(lane)) != 0) {
+          scratch_.stack[size + count_bits(near & bits_before(lane))] =
+              static_cast<std::uint32_t>(level) << place_bits | place(node, lane);
+        }
+      });
+      warp_.sync();
+      return size + count_bits(near);
+    }
+
+    FIBER_ON_DEVICE void meet_leaf(std::uint32_t other) {
+      const SegmentTreeView& b = what_.b;
+      typename Warp::template PerLane<TreeBox> theirs;
+      warp_.each([&](int lane) {
+        theirs[lane] = box_of(b.segments[smaller(place(other, lane), b.segment_count - 1)], 0.0F);
+      });
+      const TreeBox around = b.boxes[0][other];
+      const std::uint32_t near_mine = warp_.ballot([&](int lane) {
+        return place(leaf_, lane) < what_.a.segment_count && overlap(mine_[lane], around);
+      });
+      const std::uint32_t near_theirs = warp_.ballot([&](int lane) {
+        return place(other, lane) < b.segment_count && overlap(theirs[lane], whole_);
+      });
+      const bool over_theirs = count_bits(near_theirs) <= count_bits(near_mine);
+      const std::uint32_t lanes = over_theirs ? near_mine : near_theirs;
+      const bool is_own = what_.rule.self && other == leaf_;
+      // One by one, against what the lanes hold.
+      typename Warp::template PerLane<TreeBox> ones;
+      typename Warp::template PerLane<TreeBox> held;
+      warp_.each([&](int lane) {
+        ones[lane] = chosen(over_theirs, theirs[lane], mine_[lane]);
+        held[lane] = chosen(over_theirs, mine_[lane], theirs[lane]);
+      });
+      for (std::uint32_t rest = over_theirs ? near_theirs : near_mine; rest != 0;
+           rest &= rest - 1) {
+        const int one = lowest_bit(rest);
+        const TreeBox box = warp_.from(ones, one);
+        const std::uint32_t hits = warp_.ballot([&](int lane) {
+          const bool is_first = !is_own || (over_theirs ? one > lane : lane > one);
+          return (lanes & bit_of(lane)) != 0 && is_first && overlap(held[lane], box);
+        });
+        if (hits != 0) {
+          wait(hits, over_theirs, one, other);
+        }
+      }
+    }
+
+    /// Puts pairs into the queue, and tests as many as there are lanes, once there are so many.
+    FIBER_ON_DEVICE void wait(std::uint32_t hits, bool over_theirs, int one, std::uint32_t other) {
+      warp_.each([&](int lane) {
+        if ((hits & bit_of(lane)) != 0) {
+          scratch_.queue[waiting_ + count_bits(hits & bits_before(lane))] =
+              static_cast<std::uint32_t>(over_theirs ? lane : one) << place_bits |
+              place(other, over_theirs ? one : lane);
+        }
+      });
+      warp_.sync();
+      waiting_ += count_bits(hits);
+      if (waiting_ < warp_width) {
+        return;
+      }
+      test(warp_width);
+      typename Warp::template PerLane<std::uint32_t> left;
+      warp_.each([&](int lane) {
+        left[lane] = lane + warp_width < waiting_ ? scratch_.queue[lane + warp_width] : 0U;
+      });
+      warp_.sync();
+      waiting_ -= warp_width;
+      warp_.each([&](int lane) {
+        if (lane < waiting_) {
+          scratch_.queue[lane] = left[lane];
+        }
+      });
+      warp_.sync();
+    }
+
+    /// Writes those of the first pairs in the queue down that may be near.
+    FIBER_ON_DEVICE void test(int size) {
+      const std::uint32_t near = warp_.ballot([&](int lane) {
+        if (lane >= size) {
+          return false;
+        }
+        const std::uint32_t entry = scratch_.queue[lane];
+        const TreeSegment& mine = scratch_.mine[entry >> place_bits];
+        const TreeSegment& other = what_.b.segments[entry & place_mask];
+        return is_pair(mine.point, other.point) && are_near(mine, other);
+      });
+      if (near == 0) {
+        return;
+      }
+      const std::uint64_t at =
+          warp_.raise(what_.count, static_cast<std::uint64_t>(count_bits(near)));
+      warp_.each([&](int lane) {
+        const std::uint64_t to =
+            at + static_cast<std::uint64_t>(count_bits(near & bits_before(lane)));
+        if ((near & bit_of(lane)) != 0 && to < what_.capacity) {
+          const std::uint32_t entry = scratch_.queue[lane];
+          what_.pairs[to] = key_of(scratch_.mine[entry >> place_bits].point,
+                                   what_.b.segments[entry & place_mask].point);
+        }
+      });
+    }
+
+    FIBER_ON_DEVICE std::uint64_t key_of(std::uint32_t x, std::uint32_t y) const {
+      return what_.rule.self && y < x ? std::uint64_t{y} << 32U | x : std::uint64_t{x} << 32U | y;
+    }
+
+    FIBER_ON_DEVICE bool is_pair(std::uint32_t x, std::uint32_t y) const {
+      const PairRule& rule = what_.rule;
+      if (!rule.self) {
+        return true;
+      }
+      const std::uint32_t apart = x < y ? y - x : x - y;
+      if (apart > rule.neighbour_skip && rule.same_fiber && rule.different_fibers) {
+        return true;
+      }
+      const bool is_same = what_.fibers[x] == what_.fibers[y];
+      return is_same ? rule.same_fiber && apart > rule.neighbour_skip : rule.different_fibers;
+    }
+
+    FIBER_ON_DEVICE bool are_near(const TreeSegment& x, const TreeSegment& y) const {
+      using one_lane::LaneSegments;
+      using one_lane::LaneVector;
+      const LaneVector start_x{x.start[0], x.start[1], x.start[2]};
+      const LaneVector start_y{y.start[0], y.start[1], y.start[2]};
+      const LaneSegments p = one_lane::lane_segments(start_x, {x.end[0], x.end[1], x.end[2]});
+      const LaneSegments q = one_lane::lane_segments(start_y, {y.end[0], y.end[1], y.end[2]});
+      const float reach = x.radius + y.radius + what_.rule.bound;
+      return one_lane::lines_near(p.direction, q.direction, one_lane::subtract(start_x, start_y),
+                                  reach) &&
+             one_lane::segments_near(p, q, reach);
+    }
+
+    const FindPairs& what_;
+    Warp warp_;
+    const std::uint32_t leaf_;
+    Scratch& scratch_;
+    typename Warp::template PerLane<TreeBox> mine_;
+    TreeBox whole_{};
+    int waiting_ = 0;
+  };
+};
+
+}  // namespace fiber
