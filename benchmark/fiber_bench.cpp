@@ -1,4 +1,5 @@
 #include "benchmark/commands.hpp"
+#include "fiber_proximity/cuda/cuda_engines.hpp"
 #include "fiber_proximity/paper/paper_engines.hpp"
 #include "src/tools/command_line.hpp"
 
@@ -7,6 +8,7 @@ namespace {
 
 void setup(CLI::App& app, Command& command) {
   register_paper_engines();
+  register_cuda_engines();
   app.require_subcommand(0, 1);
   add_scene_commands(app, command);
   add_stages_command(app, command);

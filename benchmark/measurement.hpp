@@ -29,6 +29,7 @@ struct EngineMeasurement {
   double update_ms = 0.0;
   double detect_ms = 0.0;
   double cycle_ms = 0.0;
+  double device_ms = 0.0;        ///< of that on a GPU, without what goes over and back
   std::size_t memory_bytes = 0;  ///< the engine holds, the fibres apart
   std::size_t pairs = 0;
   QueryCounts counts;

@@ -21,7 +21,7 @@ fiber_proximity_tool(fiber_bench benchmark/fiber_bench.cpp
   benchmark/simulate.cpp benchmark/stages.cpp benchmark/swapped_places.cpp
   benchmark/swaying.cpp)
 target_link_libraries(fiber_bench fiber_proximity_accuracy fiber_bench_peers validation_geometry validation_sim
-  fiber_proximity_paper fiber_proximity_scenes fiber_proximity_environment fcl)
+  fiber_proximity_paper fiber_proximity_cuda fiber_proximity_scenes fiber_proximity_environment fcl)
 if(FIBER_PROXIMITY_BUILD_ROS)
   target_sources(fiber_bench PRIVATE benchmark/latency.cpp benchmark/obstacle_latency.cpp)
   target_compile_definitions(fiber_bench PRIVATE FIBER_BENCH_HAS_LATENCY)

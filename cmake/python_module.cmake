@@ -57,7 +57,7 @@ add_library(fiber_proximity_python MODULE
   src/python/topology.cpp
 )
 target_link_libraries(fiber_proximity_python PRIVATE
-  fiber_proximity_sim fiber_proximity_paper pybind11::module fiber_proximity_options)
+  fiber_proximity_sim fiber_proximity_paper fiber_proximity_cuda pybind11::module fiber_proximity_options)
 file(RELATIVE_PATH libraries /${python_folder} /${library_folder})
 # pybind11's own types are hidden, and so are ours that hold them. In a wheel the libraries are beside the module.
 set_target_properties(fiber_proximity_python PROPERTIES
@@ -69,7 +69,7 @@ fiber_proximity_precompile(fiber_proximity_python ${core_headers} <pybind11/nump
 fiber_proximity_compile_fast(fiber_proximity_python)
 install(TARGETS fiber_proximity_python LIBRARY DESTINATION ${python_folder})
 # All that a wheel holds: setup.py installs this component.
-install(TARGETS fiber_proximity_python fiber_proximity fiber_proximity_paper fiber_proximity_environment
+install(TARGETS fiber_proximity_python fiber_proximity fiber_proximity_paper fiber_proximity_cuda fiber_proximity_environment
   fiber_proximity_sim LIBRARY DESTINATION fiber_proximity COMPONENT wheel NAMELINK_SKIP EXCLUDE_FROM_ALL)
 if(FIBER_PROXIMITY_BUILD_ROS)
   # By name with rosrun.

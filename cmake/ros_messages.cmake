@@ -99,7 +99,7 @@ ${catkins_configuration}")
 catkin_package(
   INCLUDE_DIRS include
   LIBRARIES fiber_proximity_ros fiber_proximity_sim fiber_proximity_compare
-    fiber_proximity_environment fiber_proximity_paper fiber_proximity_scenes fiber_proximity
+    fiber_proximity_environment fiber_proximity_paper fiber_proximity_cuda fiber_proximity_scenes fiber_proximity
   CATKIN_DEPENDS message_runtime ${ros_dependencies}
   DEPENDS EIGEN3
   CFG_EXTRAS fiber_proximity-components.cmake

@@ -84,7 +84,7 @@ add_library(fiber_proximity_ros SHARED
 target_include_directories(fiber_proximity_ros SYSTEM PUBLIC
   ${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_INCLUDE_DESTINATION} ${catkin_INCLUDE_DIRS})
 target_link_libraries(fiber_proximity_ros
-  PUBLIC fiber_proximity_sim fiber_proximity_compare fiber_proximity_paper fiber_proximity_scenes ${catkin_LIBRARIES}
+  PUBLIC fiber_proximity_sim fiber_proximity_compare fiber_proximity_paper fiber_proximity_cuda fiber_proximity_scenes ${catkin_LIBRARIES}
   PRIVATE fiber_proximity_accuracy fiber_proximity_options)
 # ROS's headers take half of the time of such a source, also of a dozen together.
 fiber_proximity_compile_together(fiber_proximity_ros 12)

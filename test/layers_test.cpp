@@ -23,7 +23,7 @@ const std::vector<std::vector<std::string>> layers{
     {"bounds"},
     {"hierarchy"},
     {"query", "io"},
-    {"paper", "scenes", "environment", "compare", "mpi"},
+    {"paper", "cuda", "scenes", "environment", "compare", "mpi"},
     {"environment/scene", "sim", "accuracy"},
     {"sim/scene"},
     {"tools", "python", "ros"},

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cub/device/device_radix_sort.cuh>
+#include <cub/device/device_scan.cuh>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -183,6 +184,41 @@ class CudaExecutor {
   template <class T>
   using Buffer = CudaBuffer<T>;
 
+  /// Time of the GPU.
+  class Clock {
+   public:
+    Clock() {
+      check(cudaEventCreate(&start_));
+      check(cudaEventCreate(&stop_));
+    }
+    ~Clock() {
+      cudaEventDestroy(start_);
+      cudaEventDestroy(stop_);
+    }
+    Clock(const Clock&) = delete;
+    Clock& operator=(const Clock&) = delete;
+
+    void start(CudaExecutor& executor) { check(cudaEventRecord(start_, executor.stream_)); }
+    void stop(CudaExecutor& executor) {
+      check(cudaEventRecord(stop_, executor.stream_));
+      has_run_ = true;
+    }
+    double seconds() const {
+      if (!has_run_) {
+        return 0.0;
+      }
+      float milliseconds = 0.0F;
+      check(cudaEventSynchronize(stop_));
+      check(cudaEventElapsedTime(&milliseconds, start_, stop_));
+      return 1e-3 * static_cast<double>(milliseconds);
+    }
+
+   private:
+    cudaEvent_t start_ = nullptr;
+    cudaEvent_t stop_ = nullptr;
+    bool has_run_ = false;
+  };
+
   CudaExecutor() { check(cudaStreamCreateWithFlags(&stream_, cudaStreamNonBlocking)); }
   ~CudaExecutor() { cudaStreamDestroy(stream_); }
   CudaExecutor(const CudaExecutor&) = delete;
@@ -195,8 +231,36 @@ class CudaExecutor {
   }
 
   template <class T>
-  void download(const Buffer<T>& from, std::size_t count, T* to) {
-    pinned_.download(from.data(), count * sizeof(T), to, stream_);
+  void download(const Buffer<T>& from, std::size_t first, std::size_t count, T* to) {
+    download_from(from.data() + first, count, to);
+  }
+  template <class T>
+  void download_from(const T* from, std::size_t count, T* to) {
+    pinned_.download(from, count * sizeof(T), to, stream_);
+  }
+
+  void require_own(const void* pointer) {
+    cudaPointerAttributes attributes;
+    check(cudaPointerGetAttributes(&attributes, pointer));
+    int own = 0;
+    check(cudaGetDevice(&own));
+    const bool is_readable =
+        attributes.type == cudaMemoryTypeDevice || attributes.type == cudaMemoryTypeManaged;
+    if (!is_readable || attributes.device != own) {
+      throw std::invalid_argument(
+          is_readable ? "the points are on GPU " + std::to_string(attributes.device) +
+                            ", the engine is on GPU " + std::to_string(own)
+                      : std::string("the points are not in the memory of a GPU"));
+    }
+  }
+
+  void wait_for_others() { check(cudaDeviceSynchronize()); }
+
+  void add_up(Buffer<std::uint32_t>& values, std::size_t count) {
+    with_memory([&](void* memory, std::size_t& bytes) {
+      return cub::DeviceScan::InclusiveSum(memory, bytes, values.data(), values.data(), count,
+                                           stream_);
+    });
   }
 
   template <class T>
@@ -284,6 +348,8 @@ void require_device() {
 }
 
 }  // namespace
+
+bool has_cuda() { return true; }
 
 std::unique_ptr<Device> make_cuda_device() {
   require_device();

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "src/bounds/bounding_volume.hpp"
-#include "src/cuda/device.hpp"
+#include "src/cuda/device_fibers.hpp"
 #include "src/hierarchy/pair_bound.hpp"
 #include "src/query/threads.hpp"
 
@@ -28,32 +28,12 @@ constexpr std::uint64_t most_a_piece = std::uint64_t{1} << 22U;
 constexpr double first_part_of_extent = 0x1p-12;
 constexpr double growth = 8.0;
 
-HostTopology topology_of(const FiberAssembly& fibers) {
-  HostTopology topology;
-  topology.first_points.reserve(fibers.segment_count());
-  topology.fibers.reserve(fibers.point_count());
-  const std::vector<std::uint32_t>& offsets = fibers.offsets();
-  for (std::uint32_t fiber = 0; fiber < fibers.fiber_count(); ++fiber) {
-    for (std::uint32_t point = offsets[fiber]; point < offsets[fiber + 1]; ++point) {
-      topology.fibers.push_back(fiber);
-      if (point + 1 < offsets[fiber + 1]) {
-        topology.first_points.push_back(point);
-      }
-    }
-  }
-  return topology;
-}
-
 /// @param radii memory for those of segments, if these fibres have more than one
 void update(DeviceTree& tree, const FiberAssembly& fibers, const Vector3d& origin,
             bool same_topology, std::vector<double>& radii) {
-  if (fibers.segment_count() > SegmentTreeView::max_segments) {
-    throw std::invalid_argument("cuda_tree takes at most " +
-                                std::to_string(SegmentTreeView::max_segments) +
-                                " segments, there are " + std::to_string(fibers.segment_count()));
-  }
+  require_tree_size(fibers.segment_count());
   if (!same_topology) {
-    tree.set_topology(topology_of(fibers));
+    tree.set_topology(topology_of(fibers.offsets()));
   }
   HostFibers host;
   host.coordinates = fibers.points().empty() ? nullptr : fibers.points().front().data();
@@ -143,6 +123,7 @@ EngineFacts CudaTreeEngine::facts() const {
   EngineFacts facts;
   facts.thread_count = static_cast<std::uint32_t>(arena_.max_concurrency());
   facts.memory_bytes = tree_->memory_bytes() + device_->memory_bytes() + loops_.memory_bytes();
+  facts.device_seconds = tree_->seconds() + device_->seconds();
   return facts;
 }
 

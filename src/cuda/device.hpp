@@ -5,7 +5,9 @@
 #include <memory>
 #include <vector>
 
+#include "fiber_proximity/export.hpp"
 #include "src/cuda/find_pairs.hpp"
+#include "src/cuda/judge_pairs.hpp"
 
 namespace fiber {
 
@@ -25,6 +27,12 @@ struct HostTopology {
   std::vector<std::uint32_t> fibers;  ///< by point
 };
 
+/// Contacts where the device has them.
+struct DeviceContacts {
+  std::uint32_t count = 0;
+  ContactArrays arrays = {};
+};
+
 /// A tree over the segments of fibres, on a device.
 class DeviceTree {
  public:
@@ -38,12 +46,25 @@ class DeviceTree {
   /// Builds it anew for points of this topology.
   virtual void update(const HostFibers& fibers) = 0;
 
+  /// The same of points that are on the device already; waits until they are written.
+  /// @param fibers all but its coordinates
+  /// @param coordinates three per point [m]
+  /// @throws std::invalid_argument for a pointer that is not of this device, and for coordinates
+  /// that
+  ///         are not finite or too large
+  virtual void update(const HostFibers& fibers, const double* coordinates) = 0;
+  virtual void update(const HostFibers& fibers, const float* coordinates) = 0;
+
   virtual const SegmentTreeView& view() const = 0;
+  virtual const TreePoints& points() const = 0;
   virtual const std::uint32_t* fibers_by_point() const = 0;
   virtual std::size_t point_count() const = 0;
 
   /// [bytes] of the device
   virtual std::size_t memory_bytes() const = 0;
+
+  /// [s] that the last update took on the device, once the points were there
+  virtual double seconds() const = 0;
 };
 
 /// Where trees are built and pairs are found: a GPU, or this processor in its place.
@@ -64,15 +85,32 @@ class Device {
                              std::uint32_t leaf_count, const DeviceTree& b, const PairRule& rule,
                              std::uint64_t most, std::vector<std::uint64_t>& keys) = 0;
 
+  /// Finds the contacts of a tree's segments with each other, and leaves them on the device, until
+  /// it is called again.
+  /// @param margin [m] finite
+  /// @throws std::runtime_error for more than 2³² candidates
+  virtual DeviceContacts contacts(const DeviceTree& tree, const PairRule& rule, double margin) = 0;
+
+  /// Memory of the device with these bytes in it, for as long as it is held.
+  virtual std::shared_ptr<void> make_array(const void* from, std::size_t bytes) = 0;
+  /// Copies from the device.
+  virtual void read(const void* from, std::size_t bytes, void* to) = 0;
+
   /// [bytes] that pairs take, beside trees
   virtual std::size_t memory_bytes() const = 0;
+
+  /// [s] that the last find() took on the device, until the pairs were sorted
+  virtual double seconds() const = 0;
 };
 
 /// Kernels as loops on this processor: the same answers without a GPU, for tests.
 std::unique_ptr<Device> make_host_device();
 
+/// Whether this library was built with CUDA's compiler.
+FIBER_PROXIMITY_EXPORT bool has_cuda();
+
 /// The GPU that CUDA gives first.
 /// @throws std::runtime_error if there is none that serves, saying what was looked for
-std::unique_ptr<Device> make_cuda_device();
+FIBER_PROXIMITY_EXPORT std::unique_ptr<Device> make_cuda_device();
 
 }  // namespace fiber

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "src/cuda/device.hpp"
@@ -34,24 +37,24 @@ class DeviceTreeOf final : public DeviceTree {
       return;
     }
     executor_->upload(fibers.coordinates, 3 * fibers.point_count, coordinates_);
-    if (fibers.radii != nullptr) {
-      executor_->upload(fibers.radii, fibers.point_count, radii_);
-    }
-    TreePoints points;
-    points.coordinates = coordinates_.data();
-    points.first_points = first_points_.data();
-    points.segment_count = segment_count_;
-    points.point_count = static_cast<std::uint32_t>(fibers.point_count);
-    points.radii = fibers.radii != nullptr ? radii_.data() : nullptr;
-    points.radius = fibers.radius;
-    std::copy(fibers.origin, fibers.origin + 3, points.origin);
-    sort(points);
-    fit(points);
+    clock_.start(*executor_);
+    build(fibers);
+    clock_.stop(*executor_);
   }
+
+  void update(const HostFibers& fibers, const double* coordinates) override {
+    update_from(fibers, coordinates);
+  }
+  void update(const HostFibers& fibers, const float* coordinates) override {
+    update_from(fibers, coordinates);
+  }
+
+  double seconds() const override { return clock_.seconds(); }
 
   const SegmentTreeView& view() const override { return view_; }
   const std::uint32_t* fibers_by_point() const override { return fibers_.data(); }
   std::size_t point_count() const override { return fibers_.size(); }
+  const TreePoints& points() const override { return points_; }
 
   std::size_t memory_bytes() const override {
     std::size_t bytes = first_points_.bytes() + fibers_.bytes() + coordinates_.bytes() +
@@ -66,6 +69,50 @@ class DeviceTreeOf final : public DeviceTree {
  private:
   static std::uint32_t in_warps(std::uint32_t count) {
     return (count + warp_width - 1) / warp_width;
+  }
+
+  template <class Number>
+  void update_from(const HostFibers& fibers, const Number* coordinates) {
+    view_ = {};
+    if (segment_count_ == 0) {
+      return;
+    }
+    executor_->require_own(coordinates);
+    executor_->wait_for_others();
+    const auto count = static_cast<std::uint32_t>(3 * fibers.point_count);
+    coordinates_.resize(count);
+    bad_count_.resize(1);
+    clock_.start(*executor_);
+    executor_->zero(bad_count_);
+    executor_->for_each_warp(
+        in_warps(count),
+        TakePoints<Number>{coordinates, count, coordinates_.data(), bad_count_.data()});
+    build(fibers);
+    clock_.stop(*executor_);
+    std::uint64_t bad_count = 0;
+    executor_->download(bad_count_, 0, 1, &bad_count);
+    if (bad_count != 0) {
+      view_ = {};
+      throw std::invalid_argument(
+          std::to_string(bad_count) +
+          " coordinates on the device are not finite, or above 1e150 m in magnitude");
+    }
+  }
+
+  /// Of the coordinates that are there.
+  void build(const HostFibers& fibers) {
+    if (fibers.radii != nullptr) {
+      executor_->upload(fibers.radii, fibers.point_count, radii_);
+    }
+    points_.coordinates = coordinates_.data();
+    points_.first_points = first_points_.data();
+    points_.segment_count = segment_count_;
+    points_.point_count = static_cast<std::uint32_t>(fibers.point_count);
+    points_.radii = fibers.radii != nullptr ? radii_.data() : nullptr;
+    points_.radius = fibers.radius;
+    std::copy(fibers.origin, fibers.origin + 3, points_.origin);
+    sort(points_);
+    fit(points_);
   }
 
   /// Brings the segments into the order of the curve.
@@ -132,7 +179,10 @@ class DeviceTreeOf final : public DeviceTree {
   Buffer<std::uint32_t> order_;
   Buffer<TreeSegment> segments_;
   Buffer<TreeBox> boxes_[SegmentTreeView::max_levels];
+  Buffer<std::uint64_t> bad_count_;
+  TreePoints points_;
   SegmentTreeView view_;
+  typename Executor::Clock clock_;
 };
 
 template <class Executor>
@@ -148,6 +198,66 @@ class DeviceOf final : public Device {
                      const DeviceTree& b, const PairRule& rule, std::uint64_t most,
                      std::vector<std::uint64_t>& keys) override {
     keys.clear();
+    clock_.start(*executor_);
+    const std::uint64_t count = search(a, first_leaf, leaf_count, b, rule, most);
+    clock_.stop(*executor_);
+    if (count <= most) {
+      keys.resize(static_cast<std::size_t>(count));
+      executor_->download(pairs_, 0, keys.size(), keys.data());
+    }
+    return count;
+  }
+
+  DeviceContacts contacts(const DeviceTree& tree, const PairRule& rule, double margin) override {
+    constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max();
+    clock_.start(*executor_);
+    const std::uint64_t found = search(tree, 0, tree.view().leaf_count(), tree, rule, most);
+    if (found > most) {
+      throw std::runtime_error("cuda_tree: " + std::to_string(found) +
+                               " pairs are near, more than the 2^32 that contacts may be of");
+    }
+    const auto count = static_cast<std::uint32_t>(found);
+    DeviceContacts contacts;
+    if (count > 0) {
+      judged_.resize(count);
+      places_.resize(count);
+      executor_->for_each(
+          count, JudgePairs{tree.points(), margin, pairs_.data(), judged_.data(), places_.data()});
+      executor_->add_up(places_, count);
+      executor_->download(places_, count - 1, 1, &contacts.count);
+      contacts.arrays = make_arrays(contacts.count);
+      executor_->for_each(
+          count, WriteContacts{pairs_.data(), judged_.data(), places_.data(), contacts.arrays});
+    }
+    clock_.stop(*executor_);
+    clock_.seconds();  // until it has all been done: others may read it
+    return contacts;
+  }
+
+  std::shared_ptr<void> make_array(const void* from, std::size_t bytes) override {
+    auto array = std::make_shared<typename Executor::template Buffer<char>>();
+    executor_->upload(static_cast<const char*>(from), bytes, *array);
+    clock_.start(*executor_);
+    clock_.stop(*executor_);
+    clock_.seconds();
+    return {array, array->data()};
+  }
+  void read(const void* from, std::size_t bytes, void* to) override {
+    executor_->download_from(static_cast<const char*>(from), bytes, static_cast<char*>(to));
+  }
+
+  std::size_t memory_bytes() const override {
+    return pairs_.bytes() + count_.bytes() + judged_.bytes() + places_.bytes() + a_.bytes() +
+           b_.bytes() + s_.bytes() + t_.bytes() + distance_.bytes();
+  }
+  double seconds() const override { return clock_.seconds(); }
+
+ private:
+  static constexpr std::uint64_t first_room = 1024;
+
+  /// The pairs, sorted, in pairs_; none if there are more than `most`.
+  std::uint64_t search(const DeviceTree& a, std::uint32_t first_leaf, std::uint32_t leaf_count,
+                       const DeviceTree& b, const PairRule& rule, std::uint64_t most) {
     if (leaf_count == 0 || b.view().level_count == 0) {
       return 0;
     }
@@ -161,14 +271,12 @@ class DeviceOf final : public Device {
                                FindPairs{a.view(), b.view(), rule, a.fibers_by_point(), first_leaf,
                                          pairs_.data(), pairs_.size(), count_.data()});
       std::uint64_t count = 0;
-      executor_->download(count_, 1, &count);
+      executor_->download(count_, 0, 1, &count);
       if (count > most) {
         return count;
       }
       if (count <= pairs_.size()) {
         executor_->sort(pairs_, static_cast<std::size_t>(count), bits_of_points(a, b));
-        keys.resize(static_cast<std::size_t>(count));
-        executor_->download(pairs_, keys.size(), keys.data());
         return count;
       }
       // Room for a few more, as the next frame may have: looking twice takes longer.
@@ -177,10 +285,14 @@ class DeviceOf final : public Device {
     }
   }
 
-  std::size_t memory_bytes() const override { return pairs_.bytes() + count_.bytes(); }
-
- private:
-  static constexpr std::uint64_t first_room = 1024;
+  ContactArrays make_arrays(std::uint32_t count) {
+    a_.resize(count);
+    b_.resize(count);
+    s_.resize(count);
+    t_.resize(count);
+    distance_.resize(count);
+    return {a_.data(), b_.data(), s_.data(), t_.data(), distance_.data()};
+  }
 
   /// How many bits the numbers of points of both have.
   static int bits_of_points(const DeviceTree& a, const DeviceTree& b) {
@@ -194,6 +306,14 @@ class DeviceOf final : public Device {
   std::shared_ptr<Executor> executor_;
   typename Executor::template Buffer<std::uint64_t> pairs_;
   typename Executor::template Buffer<std::uint64_t> count_;
+  typename Executor::template Buffer<JudgedPair> judged_;
+  typename Executor::template Buffer<std::uint32_t> places_;
+  typename Executor::template Buffer<std::uint32_t> a_;
+  typename Executor::template Buffer<std::uint32_t> b_;
+  typename Executor::template Buffer<double> s_;
+  typename Executor::template Buffer<double> t_;
+  typename Executor::template Buffer<double> distance_;
+  typename Executor::Clock clock_;
 };
 
 }  // namespace fiber

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "src/cuda/device_of.hpp"
@@ -23,6 +24,13 @@ class HostExecutor {
     std::vector<T> values_;
   };
 
+  /// There is no device whose time would count.
+  struct Clock {
+    void start(HostExecutor& /*executor*/) {}
+    void stop(HostExecutor& /*executor*/) {}
+    double seconds() const { return 0.0; }
+  };
+
   template <class T>
   void upload(const T* from, std::size_t count, Buffer<T>& to) {
     to.resize(count);
@@ -30,8 +38,19 @@ class HostExecutor {
   }
 
   template <class T>
-  void download(const Buffer<T>& from, std::size_t count, T* to) {
-    std::copy(from.data(), from.data() + count, to);
+  void download(const Buffer<T>& from, std::size_t first, std::size_t count, T* to) {
+    download_from(from.data() + first, count, to);
+  }
+  template <class T>
+  void download_from(const T* from, std::size_t count, T* to) {
+    std::copy(from, from + count, to);
+  }
+
+  void require_own(const void* /*pointer*/) {}
+  void wait_for_others() {}
+
+  void add_up(Buffer<std::uint32_t>& values, std::size_t count) {
+    std::partial_sum(values.data(), values.data() + count, values.data());
   }
 
   template <class T>

@@ -1,3 +1,4 @@
+#include "fiber_proximity/cuda/cuda_engines.hpp"
 #include "fiber_proximity/paper/paper_engines.hpp"
 #include "src/python/bindings.hpp"
 
@@ -5,6 +6,7 @@ PYBIND11_MODULE(_native, module) {
   // What this file makes of the world is described in the package's __init__.py.
   module.doc() = "The compiled part of fiber_proximity; import that.";
   fiber::register_paper_engines();
+  fiber::register_cuda_engines();
   fiber::python::bind_fibers(module);
   fiber::python::bind_contacts(module);
   fiber::python::bind_environment(module);

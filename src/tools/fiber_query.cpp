@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "fiber_proximity/cuda/cuda_engines.hpp"
 #include "fiber_proximity/io/fiber_file.hpp"
 #include "fiber_proximity/paper/paper_engines.hpp"
 #include "fiber_proximity/query/engine.hpp"
@@ -105,6 +106,7 @@ void add_nearest(CLI::App& app, Command& command, const std::shared_ptr<Request>
 void setup(CLI::App& app, Command& command) {
   const std::vector<std::string> own_engines = engine_names();
   register_paper_engines();
+  register_cuda_engines();
   app.require_subcommand(0, 1);
   const auto request = std::make_shared<Request>();
   add_pair_queries(app, command, request);

@@ -7,7 +7,7 @@
 
 #include "fiber_proximity/query/engine.hpp"
 #include "test/support/assemblies.hpp"
-#include "test/support/cuda_on_host.hpp"
+#include "test/support/cuda_tree.hpp"
 #include "test/support/engine_names.hpp"
 #include "test/support/random.hpp"
 
@@ -46,7 +46,7 @@ class EnginesTest : public testing::TestWithParam<std::string> {
 /// Parameters of tests of all engines, and their names.
 inline auto all_engines() {
   std::vector<std::string> names = all_engine_names();
-  register_cuda_on_host();
+  register_cuda_tree();
   names.emplace_back("cuda_tree");
   return testing::ValuesIn(names);
 }

@@ -46,6 +46,10 @@ struct EngineFacts {
   /// How many of the hierarchy's cages the last update computed anew: all of them, except where
   /// cascade verification (Sect. 3.3) shows that the old ones hold.
   std::uint64_t recomputed_count = 0;
+
+  /// [s] What the last update and the last query took on a GPU, without what went over to it and
+  /// back; 0 of engines that use none.
+  double device_seconds = 0.0;
 };
 
 /// Answers proximity queries over one assembly at a time. All engines give the same contacts; they

@@ -4,6 +4,7 @@
 
 #include <stdexcept>
 
+#include "fiber_proximity/cuda/cuda_engines.hpp"
 #include "fiber_proximity/paper/paper_engines.hpp"
 #include "src/ros/server/query_options.hpp"
 #include "src/ros/support/parameters.hpp"
@@ -116,6 +117,7 @@ ProximityConfig read_dynamic_parameters(const ros::NodeHandle& private_node) {
 ServerOptions read_server_options(const ros::NodeHandle& node,
                                   const ros::NodeHandle& private_node) {
   fiber::register_paper_engines();
+  fiber::register_cuda_engines();
   const Parameters parameters(private_node, interface());
   ServerOptions options;
   double radius = 0.0;

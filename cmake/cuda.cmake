@@ -1,0 +1,57 @@
+# The engine of GPUs, cuda_tree. Without CUDA's compiler the library is there, and knows no engine.
+
+option(FIBER_PROXIMITY_BUILD_CUDA "Build the engine of GPUs, where CUDA's compiler is installed" ON)
+
+set(cuda_missing "")
+if(NOT FIBER_PROXIMITY_BUILD_CUDA)
+  set(cuda_missing "FIBER_PROXIMITY_BUILD_CUDA is off")
+elseif(FIBER_PROXIMITY_SANITIZE)
+  set(cuda_missing "sanitizers do not see what a GPU does")
+elseif(CMAKE_VERSION VERSION_LESS 3.18)
+  set(cuda_missing "CMake is older than 3.18, which knows GPUs by their architecture")
+else()
+  include(CheckLanguage)
+  check_language(CUDA)
+  if(NOT CMAKE_CUDA_COMPILER)
+    set(cuda_missing "CUDA's compiler, nvcc, is not found; see scripts/setup.sh --cuda")
+  endif()
+endif()
+
+add_library(fiber_proximity_cuda SHARED
+  src/cuda/cuda_engines.cpp
+  src/cuda/cuda_tree_engine.cpp
+  src/cuda/device_fibers.cpp
+  src/cuda/device_proximity.cpp
+)
+if(cuda_missing)
+  message(STATUS "Engine of GPUs: left out, ${cuda_missing}")
+  target_sources(fiber_proximity_cuda PRIVATE src/cuda/no_device.cpp)
+else()
+  # Machine code for what is common, and what newer ones compile when they start.
+  if(NOT DEFINED CMAKE_CUDA_ARCHITECTURES)
+    set(CMAKE_CUDA_ARCHITECTURES 75-real 80-real 86-real 89-real 90)
+  endif()
+  enable_language(CUDA)
+  if(CMAKE_CUDA_COMPILER_VERSION VERSION_LESS 11.4)
+    message(FATAL_ERROR "CUDA ${CMAKE_CUDA_COMPILER_VERSION} is older than 11.4: set FIBER_PROXIMITY_BUILD_CUDA=OFF")
+  endif()
+  message(STATUS "Engine of GPUs: CUDA ${CMAKE_CUDA_COMPILER_VERSION} for ${CMAKE_CUDA_ARCHITECTURES}")
+  # Alone: the other compiler's options are not for it. Nothing is fused: the same bits as on the processor.
+  add_library(fiber_proximity_cuda_kernels OBJECT src/cuda/cuda_device.cu)
+  set_target_properties(fiber_proximity_cuda_kernels PROPERTIES CUDA_STANDARD 17 CUDA_STANDARD_REQUIRED ON
+    CUDA_VISIBILITY_PRESET hidden POSITION_INDEPENDENT_CODE ON)
+  target_compile_options(fiber_proximity_cuda_kernels PRIVATE --fmad=false --expt-relaxed-constexpr --threads=0
+    -Xcompiler=-Wall,-Wextra $<$<BOOL:${FIBER_PROXIMITY_WERROR}>:--Werror=all-warnings>)
+  target_sources(fiber_proximity_cuda PRIVATE src/cuda/pinned_copy.cpp)
+  target_link_libraries(fiber_proximity_cuda PRIVATE fiber_proximity_cuda_kernels)
+endif()
+target_link_libraries(fiber_proximity_cuda PUBLIC fiber_proximity PRIVATE fiber_proximity_options)
+# As of the paper's engines.
+target_link_options(fiber_proximity_cuda PRIVATE LINKER:-z,nodelete)
+set_target_properties(fiber_proximity_cuda PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+fiber_proximity_parse_once(fiber_proximity_cuda ${core_headers})
+fiber_proximity_component(cuda fiber_proximity_cuda)
+
+# For tests: the same kernels as loops.
+add_library(fiber_proximity_host_device STATIC EXCLUDE_FROM_ALL src/cuda/host_device.cpp)
+target_link_libraries(fiber_proximity_host_device PUBLIC fiber_proximity_cuda PRIVATE fiber_proximity_options)

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "fiber_proximity/export.hpp"
+#include "fiber_proximity/query/options.hpp"
+
+namespace FIBER_PROXIMITY_EXPORT fiber {
+
+class Device;
+
+/// Contacts of fibres whose points are on a GPU, left there: for simulations whose points never
+/// come to the host. Pairs, parameters and distances are those of every engine, bit for bit.
+class DeviceProximity {
+ public:
+  /// Which pairs are contacts. The rule of loops is the host's: here neighbours are left out by
+  /// their number.
+  struct Options {
+    double margin = 0.0;               ///< [m] finite, >= 0
+    std::uint32_t neighbour_skip = 1;  ///< as PairOptions has it
+    Pairing pairing = Pairing::ALL;
+  };
+
+  /// Arrays on the device of `count` values each, sorted by a, then b: to be read until the next
+  /// query().
+  struct Contacts {
+    std::uint32_t count = 0;
+    const std::uint32_t* a = nullptr;  ///< first points of the segments, a < b
+    const std::uint32_t* b = nullptr;
+    const double* s = nullptr;  ///< where on segment a, 0 at its first point and 1 at its second
+    const double* t = nullptr;  ///< where on segment b
+    const double* distance = nullptr;  ///< signed gap of the surfaces, negative in penetration [m]
+  };
+
+  /// @param offsets fibre count + 1 values, from 0 to the number of points, on the host
+  /// @param radii   [m] one for all fibres, one per fibre, or one per point, on the host
+  /// @throws std::invalid_argument as FiberAssembly, std::runtime_error without a GPU that serves
+  DeviceProximity(std::vector<std::uint32_t> offsets, std::vector<double> radii);
+  /// On another device, for tests.
+  DeviceProximity(std::unique_ptr<Device> device, std::vector<std::uint32_t> offsets,
+                  std::vector<double> radii);
+  ~DeviceProximity();
+  DeviceProximity(const DeviceProximity&) = delete;
+  DeviceProximity& operator=(const DeviceProximity&) = delete;
+
+  std::size_t point_count() const { return offsets_.back(); }
+
+  /// Takes the points, and needs them no longer. Waits until all that the device has been given
+  /// before is done.
+  /// @param coordinates on the device, three per point [m]
+  /// @throws std::invalid_argument for a pointer that is not of this device, and for coordinates
+  /// that
+  ///         are not finite or above FiberAssembly::max_coordinate; there are no points then
+  void update(const double* coordinates);
+  void update(const float* coordinates);
+
+  /// Finds the contacts, and waits until they are there.
+  /// @throws std::invalid_argument for a margin that is not allowed, std::logic_error before the
+  /// first
+  ///         update(), std::runtime_error where the device's memory does not suffice, saying how
+  ///         much was needed
+  Contacts query(const Options& options) const;
+
+  /// [s] What the last update() and the last query() took on the device.
+  double device_seconds() const;
+
+ private:
+  struct Tree;
+
+  template <class Number>
+  void take(const Number* coordinates);
+
+  std::vector<std::uint32_t> offsets_;
+  std::unique_ptr<Device> device_;
+  std::unique_ptr<Tree> tree_;
+};
+
+}  // namespace fiber

@@ -1,0 +1,117 @@
+#!/usr/bin/env bash
+# Builds what a check of the GPU engine needs, packs it with all that it loads, and runs it where a GPU is: tests of
+# engines, the same answers as on the processor byte by byte, compute-sanitizer, times. Writes one report.
+#   scripts/check_gpu.sh [--pack FOLDER | --run FOLDER] [--out DIR] [--verbose]
+#     --pack FOLDER  build and pack only: the folder then runs on any 64-bit Linux with a GPU, with nothing installed
+#     --run FOLDER   run what lies packed there
+#     --out DIR      where the report goes (default: gpu in the build's folder)
+set -euo pipefail
+
+usage="usage: scripts/check_gpu.sh [--pack FOLDER | --run FOLDER] [--out DIR] [--verbose]"
+pack=
+run=
+out=
+verbose_wanted=false
+while [ $# -gt 0 ]; do
+  case "$1" in
+    --pack | --run | --out)
+      [ $# -ge 2 ] || { echo "check_gpu.sh: $1 needs a folder; $usage" >&2; exit 2; }
+      declare "${1#--}=$2"
+      shift
+      ;;
+    --verbose) verbose_wanted=true ;;
+    -h | --help) echo "$usage"; exit 0 ;;
+    *) echo "check_gpu.sh: unknown argument '$1'; $usage" >&2; exit 2 ;;
+  esac
+  shift
+done
+
+programs=(cuda_tree_test query_test hard_scenes_test accuracy_test contact_limit_test concurrent_queries_test
+  fiber_graph_test fiber_bench)
+
+# pack_programs FOLDER: programs, the libraries they load and the loader, without symbols.
+pack_programs() {
+  mkdir -p "$1/lib"
+  local program
+  for program in "${programs[@]}"; do
+    find "$build" -name "$program" -type f -perm -u+x -exec cp {} "$1" \; -quit
+    ldd "$1/$program" | awk '$2 == "=>" { print $3 } $1 ~ /ld-linux/ { print $1 }' | xargs -I{} cp -Lu {} "$1/lib"
+  done
+  strip "$1"/*_test "$1/fiber_bench" "$1"/lib/libfiber* 2>/dev/null || true
+  cp "$0" "$1/check_gpu.sh"
+}
+
+# here PROGRAM ARGUMENT...: with the libraries packed beside it, and the driver's.
+here() {
+  local program=$1
+  shift
+  "$run/lib/ld-linux-x86-64.so.2" --library-path "$run/lib:/usr/local/nvidia/lib64:/usr/lib/x86_64-linux-gnu" \
+    "$run/$program" "$@"
+}
+
+# step NAME COMMAND...: its last lines go into the report.
+failed=0
+step() {
+  local name=$1 start status=passed
+  shift
+  start=$(date +%s)
+  "$@" >"$out/$name.log" 2>&1 || { status="FAILED ($?)"; failed=1; }
+  echo "check_gpu.sh: $name: $status, $(($(date +%s) - start)) s"
+  { echo "## $name: $status"; echo '```'; tail -n "${tail_lines:-6}" "$out/$name.log"; echo '```'; } >>"$out/report.md"
+}
+
+run_checks() {
+  mkdir -p "$out"
+  {
+    echo "# cuda_tree on a GPU"
+    echo "$(nvidia-smi --query-gpu=name,driver_version --format=csv,noheader 2>/dev/null || echo 'no nvidia-smi'), $(nproc) cores ($(sed -n 's/^model name.*: //p' /proc/cpuinfo | head -1)), $(date +%F)"
+  } >"$out/report.md"
+  export FIBER_PROXIMITY_TEST_GPU=1
+  step same_bytes env FIBER_PROXIMITY_TEST_SCENES=2000 bash -c "$(declare -f here); run='$run'; here cuda_tree_test"
+  step engines here query_test --gtest_filter='*/cuda_tree'
+  step limits here contact_limit_test --gtest_filter='*/cuda_tree'
+  step accuracy here accuracy_test --gtest_filter='*/cuda_tree'
+  step concurrent here concurrent_queries_test --gtest_filter='*/cuda_tree'
+  step joined here fiber_graph_test --gtest_filter='*/cuda_tree'
+  step hard_scenes here hard_scenes_test --gtest_filter='*cuda_tree*'
+  local sanitizer
+  sanitizer=$(command -v compute-sanitizer || ls /usr/local/cuda/bin/compute-sanitizer 2>/dev/null || true)
+  if [ -n "$sanitizer" ]; then
+    for tool in memcheck racecheck; do
+      step $tool "$sanitizer" --tool $tool --error-exitcode 9 "$run/lib/ld-linux-x86-64.so.2" \
+        --library-path "$run/lib:/usr/local/nvidia/lib64:/usr/lib/x86_64-linux-gnu" "$run/cuda_tree_test" \
+        --gtest_filter='*TakesAnyNumber*:*AskedAgain*'
+    done
+  else
+    echo "## compute-sanitizer: not found" >>"$out/report.md"
+  fi
+  tail_lines=4
+  for scene in ${FIBER_PROXIMITY_GPU_SCENES:-soup tress_a tress_b cloth longish windy charming curly}; do
+    step "cycle_$scene" here fiber_bench cycle --scene "$scene" --engines run_tree,cuda_tree --repeats "${FIBER_PROXIMITY_GPU_FRAMES:-11}"
+  done
+  echo "check_gpu.sh: the report is $out/report.md"
+  return $failed
+}
+
+if [ -z "$run" ]; then
+  # shellcheck source=scripts/environment.sh
+  source "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
+  ! $verbose_wanted || be_verbose
+  "$root/scripts/setup.sh"
+  build+=/gpu
+  out=${out:-$build/report}
+  cmake_arguments=(-DFIBER_PROXIMITY_BUILD_ROS=OFF -DFIBER_PROXIMITY_BUILD_MPI=OFF -DFIBER_PROXIMITY_PEERS=OFF
+    -DFIBER_PROXIMITY_BUILD_CUDA=ON)
+  build_package "${programs[@]}"
+  run=${pack:-$build/packed}
+  pack_programs "$run"
+  if [ -n "$pack" ]; then
+    echo "check_gpu.sh: packed; where a GPU is: $pack/check_gpu.sh --run $pack --out DIR"
+    exit
+  fi
+fi
+run=$(cd "$run" && pwd)
+out=${out:-$run/report}
+mkdir -p "$out"
+out=$(cd "$out" && pwd)
+run_checks

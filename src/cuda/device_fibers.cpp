@@ -1,0 +1,31 @@
+#include "src/cuda/device_fibers.hpp"
+
+#include <stdexcept>
+#include <string>
+
+namespace fiber {
+
+HostTopology topology_of(const std::vector<std::uint32_t>& offsets) {
+  HostTopology topology;
+  topology.first_points.reserve(offsets.back());
+  topology.fibers.reserve(offsets.back());
+  for (std::uint32_t fiber = 0; fiber + 1 < offsets.size(); ++fiber) {
+    for (std::uint32_t point = offsets[fiber]; point < offsets[fiber + 1]; ++point) {
+      topology.fibers.push_back(fiber);
+      if (point + 1 < offsets[fiber + 1]) {
+        topology.first_points.push_back(point);
+      }
+    }
+  }
+  return topology;
+}
+
+void require_tree_size(std::size_t segment_count) {
+  if (segment_count > SegmentTreeView::max_segments) {
+    throw std::invalid_argument("cuda_tree takes at most " +
+                                std::to_string(SegmentTreeView::max_segments) +
+                                " segments, there are " + std::to_string(segment_count));
+  }
+}
+
+}  // namespace fiber
