@@ -28,6 +28,9 @@ void add_environment_command(CLI::App& app, Command& command);
 /// `simulate`: the simulation of rods, its accuracy, its time and what each effect costs.
 void add_simulate_command(CLI::App& app, Command& command);
 
+/// `device`: contacts that stay on a GPU.
+void add_device_command(CLI::App& app, Command& command);
+
 /// `latency`: a running ROS graph; only in builds with ROS.
 void add_latency_command(CLI::App& app, Command& command);
 

@@ -18,6 +18,7 @@ void setup(CLI::App& app, Command& command) {
   add_motions_command(app, command);
   add_environment_command(app, command);
   add_simulate_command(app, command);
+  add_device_command(app, command);
 #ifdef FIBER_BENCH_HAS_LATENCY
   add_latency_command(app, command);
   add_obstacle_latency_command(app, command);

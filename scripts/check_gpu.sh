@@ -35,6 +35,7 @@ pack_programs() {
   local program
   for program in "${programs[@]}"; do
     find "$build" -name "$program" -type f -perm -u+x -exec cp {} "$1" \; -quit
+    cp -Lu /lib/x86_64-linux-gnu/{libpthread.so.0,libdl.so.2,librt.so.1} "$1/lib"  # the driver asks for them
     ldd "$1/$program" | awk '$2 == "=>" { print $3 } $1 ~ /ld-linux/ { print $1 }' | xargs -I{} cp -Lu {} "$1/lib"
   done
   strip "$1"/*_test "$1/fiber_bench" "$1"/lib/libfiber* 2>/dev/null || true

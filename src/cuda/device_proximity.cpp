@@ -1,11 +1,13 @@
 #include "fiber_proximity/cuda/device_proximity.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
 
 #include "src/bounds/bounding_volume.hpp"
 #include "src/cuda/device_fibers.hpp"
+#include "src/query/threads.hpp"
 
 namespace fiber {
 
@@ -51,6 +53,37 @@ void DeviceProximity::take(const Number* coordinates) {
 
 void DeviceProximity::update(const double* coordinates) { take(coordinates); }
 void DeviceProximity::update(const float* coordinates) { take(coordinates); }
+
+void DeviceProximity::update_from_host(const std::vector<Eigen::Vector3d>& points) {
+  if (points.size() != point_count()) {
+    throw std::invalid_argument("there are " + std::to_string(points.size()) +
+                                " points, the fibres have " + std::to_string(point_count()));
+  }
+  constexpr std::size_t points_a_job = std::size_t{1} << 14U;
+  for_each_of((points.size() + points_a_job - 1) / points_a_job, [&](std::size_t job) {
+    const std::size_t end = std::min(points.size(), (job + 1) * points_a_job);
+    for (std::size_t point = job * points_a_job; point < end; ++point) {
+      require_coordinates("point", points[point]);
+    }
+  });
+  tree_->has_points = false;
+  HostFibers fibers = tree_->fibers;
+  fibers.coordinates = points.empty() ? nullptr : points.front().data();
+  tree_->tree->update(fibers);
+  tree_->has_points = true;
+}
+
+void DeviceProximity::copy_to_host(const Contacts& contacts, HostContacts& copy) const {
+  const auto read = [&](const auto* from, auto& to) {
+    to.resize(contacts.count);
+    device_->read(from, contacts.count * sizeof(*from), to.data());
+  };
+  read(contacts.a, copy.a);
+  read(contacts.b, copy.b);
+  read(contacts.s, copy.s);
+  read(contacts.t, copy.t);
+  read(contacts.distance, copy.distance);
+}
 
 DeviceProximity::Contacts DeviceProximity::query(const Options& options) const {
   if (!(options.margin >= 0.0 && std::isfinite(options.margin))) {

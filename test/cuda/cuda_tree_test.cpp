@@ -247,6 +247,16 @@ TEST(DeviceProximity, RefusesWhatIsNotAllowed) {
   coordinates[7] = 2.0;
   device.update(arrays.put(coordinates).get());
   EXPECT_EQ(device.query({}).count, 1U);
+  EXPECT_EQ(error_of([&] {
+              device.update_from_host({{0.0, 0.0, 0.0}});
+            }),
+            "there are 1 points, the fibres have 4");
+  device.update_from_host(std::vector<Eigen::Vector3d>(4, Eigen::Vector3d::Zero()));
+  DeviceProximity::HostContacts contacts;
+  device.copy_to_host(device.query({}), contacts);
+  EXPECT_EQ(contacts.a, std::vector<std::uint32_t>{0});
+  EXPECT_EQ(contacts.b, std::vector<std::uint32_t>{2});
+  EXPECT_EQ(contacts.distance, std::vector<double>{-0.2});
   EXPECT_EQ(error_of([&] { device.query({-1.0}); }),
             "margin is -1.000000 m, it must be finite and not negative");
   coordinates[4] = std::numeric_limits<double>::quiet_NaN();

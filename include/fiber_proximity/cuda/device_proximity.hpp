@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -34,6 +35,15 @@ class DeviceProximity {
     const double* distance = nullptr;  ///< signed gap of the surfaces, negative in penetration [m]
   };
 
+  /// The same in the memory of the host: 32 bytes each.
+  struct HostContacts {
+    std::vector<std::uint32_t> a;
+    std::vector<std::uint32_t> b;
+    std::vector<double> s;
+    std::vector<double> t;
+    std::vector<double> distance;
+  };
+
   /// @param offsets fibre count + 1 values, from 0 to the number of points, on the host
   /// @param radii   [m] one for all fibres, one per fibre, or one per point, on the host
   /// @throws std::invalid_argument as FiberAssembly, std::runtime_error without a GPU that serves
@@ -56,12 +66,19 @@ class DeviceProximity {
   void update(const double* coordinates);
   void update(const float* coordinates);
 
+  /// The same of points on the host.
+  /// @throws std::invalid_argument for another number of points, too
+  void update_from_host(const std::vector<Eigen::Vector3d>& points);
+
   /// Finds the contacts, and waits until they are there.
   /// @throws std::invalid_argument for a margin that is not allowed, std::logic_error before the
   /// first
   ///         update(), std::runtime_error where the device's memory does not suffice, saying how
   ///         much was needed
   Contacts query(const Options& options) const;
+
+  /// Copies contacts of the last query() to the host, into the memory there is.
+  void copy_to_host(const Contacts& contacts, HostContacts& copy) const;
 
   /// [s] What the last update() and the last query() took on the device.
   double device_seconds() const;
