@@ -171,8 +171,7 @@ void add(const FiberEntry& entry, std::int64_t segments, SimDescription& scene) 
                " leaves values open, for which are taken: ", entry.material_defaults));
   }
   NodesAt nodes;
-  with_fiber_name(entry.name,
-                  [&] { with_context(entry.place, [&] { nodes = nodes_of(entry, segments); }); });
+  with_fiber_name(entry.name, [&] { nodes = nodes_of(entry, segments); });
   const std::vector<Eigen::Vector3d> points =
       nodes.empty() ? resample(entry.curve, segments) : cut_curve(entry.curve, segments, nodes);
   for (std::int64_t i = 0; i < entry.count.value_or(1); ++i) {

@@ -83,10 +83,11 @@ std::vector<SceneMap> fiber_maps() {
         number_key("to", above_0, "", "m",
                    "along the fibre, where it ends: the fibre's length at most, and that if it is "
                    "absent"),
-        other_key("material", "a preset, or a map of moduli", "the fibre's", "",
+        other_key("material", "a preset, or a map of moduli", "", "",
                   "as that of a fibre; values that a map without a preset leaves open are the "
                   "fibre's. Needed where there is neither a radius nor `rigid`"),
-        number_key("radius", above_0, "the fibre's", "m", "for contacts, stiffness and mass"),
+        number_key("radius", above_0, "", "m",
+                   "for contacts, stiffness and mass; the fibre's if absent"),
         other_key("rigid", "true or false", "false", "",
                   "it neither bends nor twists: a plug. It is one segment of its length, straight, "
                   "and gives way to tension by its material")}},

@@ -112,7 +112,8 @@ void require_rigid_parts(const FiberEntry& fiber, std::int64_t segments) {
       continue;
     }
     const double own = section.part.to - section.part.from;
-    if (edges > 0 && !(own >= length / static_cast<double>(edges))) {
+    constexpr double rounding = 1e-9;
+    if (edges > 0 && !(own >= (1.0 - rounding) * length / static_cast<double>(edges))) {
       throw std::invalid_argument(format(
           section.place, " is rigid and ", own, " m long, it must be no shorter than a segment of ",
           "the rest of the fibre, ", length / static_cast<double>(edges), " m"));
@@ -172,7 +173,7 @@ NodesAt nodes_of(const FiberEntry& fiber, std::int64_t segments) {
   }
   std::sort(shares.begin(), shares.end());
   shares.erase(std::unique(shares.begin(), shares.end()), shares.end());
-  return nodes_at(shares, segments, rigid);
+  return with_context(fiber.place, [&] { return nodes_at(shares, segments, rigid); });
 }
 
 void set_sections(const FiberEntry& entry, const NodesAt& nodes, Rods& rods) {

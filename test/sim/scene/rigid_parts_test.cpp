@@ -8,7 +8,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-std::string with_sections(const std::string& sections, int segments = 5) {
+std::string with_parts(const std::string& sections, int segments = 5) {
   std::string text = scene_text(line, "[stretch, bend]");
   text.replace(text.find("    segments: 4"), 15,
                "    sections: [" + sections + "]\n    segments: " + std::to_string(segments));
@@ -16,8 +16,8 @@ std::string with_sections(const std::string& sections, int segments = 5) {
 }
 
 TEST_F(SimSceneTest, ARigidPartIsOneSegmentOfItsLength) {
-  const Rods rods = read(with_sections("{from: 0.7, to: 0.9, radius: 0.02, rigid: true, material: "
-                                       "{density: 1600}}"))
+  const Rods rods = read(with_parts("{from: 0.7, to: 0.9, radius: 0.02, rigid: true, material: "
+                                    "{density: 1600}}"))
                         .stepper->rods();
   const std::vector<double> x{0.0, 0.7 / 3.0, 1.4 / 3.0, 0.7, 0.9, 1.0};
   ASSERT_EQ(rods.node_count(0), x.size());
@@ -33,7 +33,7 @@ TEST_F(SimSceneTest, ARigidPartIsOneSegmentOfItsLength) {
 
 TEST_F(SimSceneTest, PlugsAtBothEndsAreOneSegmentEach) {
   const Rods rods =
-      read(with_sections("{to: 0.3, rigid: true}, {from: 0.75, rigid: true, radius: 0.03}"))
+      read(with_parts("{to: 0.3, rigid: true}, {from: 0.75, rigid: true, radius: 0.03}"))
           .stepper->rods();
   EXPECT_NEAR(rods.positions[1].x(), 0.3, 1e-12);
   EXPECT_NEAR(rods.positions[2].x(), 0.45, 1e-12);
@@ -43,7 +43,7 @@ TEST_F(SimSceneTest, PlugsAtBothEndsAreOneSegmentEach) {
 }
 
 TEST_F(SimSceneTest, APartWithARadiusOfItsOwnBeginsAndEndsAtNodes) {
-  const Rods rods = read(with_sections("{from: 0.33, to: 0.71, radius: 0.02}", 10)).stepper->rods();
+  const Rods rods = read(with_parts("{from: 0.33, to: 0.71, radius: 0.02}", 10)).stepper->rods();
   EXPECT_NEAR(rods.positions[3].x(), 0.33, 1e-12);
   EXPECT_NEAR(rods.positions[7].x(), 0.71, 1e-12);
   EXPECT_EQ(rods.edge_radius(0, 2), 0.01);
@@ -54,7 +54,7 @@ TEST_F(SimSceneTest, APartWithARadiusOfItsOwnBeginsAndEndsAtNodes) {
 }
 
 TEST_F(SimSceneTest, NaturalCurvatureLeavesRigidPartsOut) {
-  std::string text = with_sections("{from: 0.4, to: 0.6, rigid: true}");
+  std::string text = with_parts("{from: 0.4, to: 0.6, rigid: true}");
   text.replace(text.find("bend"), 4, "bend: {natural_curvature: 2}");
   text.replace(text.find("[stretch, bend: {natural_curvature: 2}]"), 39,
                "[stretch, {bend: {natural_curvature: 2}}]");
@@ -175,19 +175,20 @@ TEST_F(SimSceneTest, FibresThatBeginInsideOfAThickPartAreRefused) {
     }
     return made;
   };
-  EXPECT_EQ(error(at("0.15")),
-            "2: fibers[0] begins inside of fibers[1]: segment 14 of fibre 'cable' and segment 9 of "
-            "fibre 'other' are 4 mm deep in it, 0.13 mm is the most");
+  EXPECT_NE(error(at("0.15"))
+                .find("segment 14 of fibre 'cable' and segment 9 of fibre 'other' are 4 mm deep in "
+                      "it, 0.13 mm is the most"),
+            std::string::npos);
   read(at("0.05"));
 }
 
 TEST_F(SimSceneTest, RigidPartsThatCannotBeAreErrors) {
   const std::vector<std::pair<std::string, std::string>> refused{
       {"{from: 0.2, to: 0.3, rigid: true}",
-       "2: fibers[0]: 4: fibers[0].sections[0] is rigid and 0.1 m long, it must be no shorter than "
+       "4: fibers[0].sections[0] is rigid and 0.1 m long, it must be no shorter than "
        "a segment of the rest of the fibre, 0.225 m (fibre 'cable')"},
       {"{from: 0.2, to: 0.5, rigid: true}, {from: 0.5, to: 0.8, rigid: true}",
-       "2: fibers[0]: 4: fibers[0].sections[1] is rigid as the one right before it: they must be "
+       "4: fibers[0].sections[1] is rigid as the one right before it: they must be "
        "one (fibre 'cable')"},
       {"{from: 0.2, to: 0.6, radius: 0}",
        "4: fibers[0].sections[0].radius is 0, it must be above 0 (fibre 'cable')"},
@@ -196,9 +197,9 @@ TEST_F(SimSceneTest, RigidPartsThatCannotBeAreErrors) {
        "beside one at 0.2 of its length (fibre 'cable')"},
   };
   for (const auto& [sections, expected] : refused) {
-    EXPECT_EQ(error(with_sections(sections)), expected) << sections;
+    EXPECT_EQ(error(with_parts(sections)), expected) << sections;
   }
-  std::string bent = with_sections("{from: 0.4, to: 0.7, rigid: true}");
+  std::string bent = with_parts("{from: 0.4, to: 0.7, rigid: true}");
   bent.replace(bent.find("{line: {from: [0, 0, 0], to: [1, 0, 0]}}"), 40,
                "{polyline: [[0, 0, 0], [0.5, 0, 0], [0.5, 0.5, 0]]}");
   EXPECT_NE(error(bent).find("the fibre's shape must be straight there"), std::string::npos);
