@@ -23,6 +23,7 @@ add_library(fiber_proximity_sim SHARED
   src/sim/joint/joints.cpp
   src/sim/joint/weld.cpp
   src/sim/overlaps.cpp
+  src/sim/separation.cpp
   src/sim/resolution.cpp
   src/sim/rods.cpp
   src/sim/sections.cpp
@@ -61,6 +62,7 @@ add_library(sim_scene OBJECT
   src/sim/scene/report.cpp
   src/sim/scene/resolution.cpp
   src/sim/scene/scene.cpp
+  src/sim/scene/sections.cpp
   src/sim/scene/shapes.cpp
   src/sim/scene/times.cpp
 )

@@ -19,6 +19,16 @@ struct Overlap {
   double depth() const { return -contact.distance; }
 };
 
+/// The radius of a segment, as contacts name them.
+inline double radius_of(const Rods& rods, std::uint32_t rod, std::uint32_t segment) {
+  return rods.edge_radius(rod, rods.first(rod) + segment);
+}
+
+inline double touching_distance(const Rods& rods, const Contact& contact) {
+  return radius_of(rods, contact.fiber_a, contact.segment_a) +
+         radius_of(rods, contact.fiber_b, contact.segment_b);
+}
+
 /// Finds overlaps, by the rule of FiberContact for edges of one rod.
 class OverlapFinder {
  public:
@@ -38,7 +48,7 @@ class OverlapFinder {
   std::vector<Overlap> find(const Rods& rods, double share, std::uint32_t max);
 
  private:
-  void find_between_rods(const Rods& rods, double share, std::vector<Overlap>& found);
+  void find_between_rods(const Rods& rods, std::vector<Overlap>& found);
 
   Options options_;
   std::unique_ptr<ProximityEngine> engine_;

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -50,6 +52,12 @@ struct RodPart {
 struct RodSectionPart {
   RodPart part;
   RodSection section;
+
+  /// [m] Its own, from one node to another; none: the rod's.
+  std::optional<double> radius = std::nullopt;
+
+  /// It neither bends nor twists: one edge, which its stretching stiffness alone lets give way.
+  bool is_rigid = false;
 };
 
 /// What sections along parts of rods amount to, with stiffnesses in series: lengths of the rods'
@@ -84,8 +92,13 @@ struct Rods : RodState {
   RodState& state() { return *this; }
 
   std::vector<std::uint32_t> offsets{0};
-  std::vector<double> radii;         ///< by rod [m]
+  std::vector<double> radii;         ///< by rod, the largest along it [m]
   std::vector<RodSection> sections;  ///< by rod
+
+  std::vector<double> edge_radii;  ///< by edge [m]; empty where all rods are as thick all along
+
+  /// By edge: not 0 where it is a rigid part. Empty: none is.
+  std::vector<std::uint8_t> rigid_edges;
 
   SectionLengths section_lengths;  ///< empty where all rods are the same all along
 
@@ -130,10 +143,34 @@ struct Rods : RodState {
     return 0.5 * (rest_lengths[node - 1] + rest_lengths[node]);
   }
 
+  /// The part of that which may bend.
+  double bending_share_at(std::uint32_t node) const {
+    if (rigid_edges.empty()) {
+      return 1.0;
+    }
+    const double before = rigid_edges[node - 1] != 0 ? 0.0 : rest_lengths[node - 1];
+    const double after = rigid_edges[node] != 0 ? 0.0 : rest_lengths[node];
+    return (before + after) / (rest_lengths[node - 1] + rest_lengths[node]);
+  }
+
   /// Length at rest that belongs to the place where a closed rod begins and ends [m].
   double rest_length_at_seam(std::uint32_t rod) const {
     return 0.5 * (rest_lengths[end(rod) - 2] + rest_lengths[first(rod)]);
   }
+
+  double edge_radius(std::uint32_t rod, std::uint32_t edge) const {
+    return edge_radii.empty() ? radii[rod] : edge_radii[edge];
+  }
+
+  /// The larger radius of the edges that end at a node [m].
+  double node_radius(std::uint32_t rod, std::uint32_t node) const;
+
+  /// Gives the edges of rods that have no radius yet that of their rod.
+  void add_edge_radii();
+
+  /// Radii as FiberAssembly takes them, of rods or of points: those of edges are never less than
+  /// they are, and more where a thick edge is alone between two thinner ones, for the edge before.
+  std::vector<double> assembly_radii() const;
 
   /// The moment of inertia of an edge's cross-section about the tangent [kg m²]; 0 at each rod's
   /// last node.
@@ -160,8 +197,9 @@ struct Rods : RodState {
   /// rod. Call at most once for a rod.
   /// @param parts one behind the other
   /// @throws std::invalid_argument naming rod, part and value, for parts that overlap or leave the
-  ///         rod, and sections, that of the rod included, whose stiffnesses and masses are not
-  ///         positive and finite; nothing is changed then
+  ///         rod, those with a radius of their own that do not go from node to node, rigid ones
+  ///         that are not one edge or follow each other, and sections, that of the rod included,
+  ///         whose stiffnesses and masses are not positive and finite; nothing is changed then
   void set_sections(std::uint32_t rod, const std::vector<RodSectionPart>& parts);
 };
 

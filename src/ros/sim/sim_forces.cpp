@@ -179,9 +179,14 @@ std::vector<Arrow> arrows_of(const fiber::RodForces& forces) {
 void draw_tensions(const fiber::Rods& rods, const std::vector<double>& tensions, double full,
                    MarkerCanvas& canvas) {
   for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
-    Marker& marker = canvas.add("tensions", Marker::LINE_LIST);
-    marker.scale.x = 2.2 * rods.radii[rod];
+    Marker* line = nullptr;
     for (std::uint32_t i = rods.first(rod); i + 1 < rods.end(rod); ++i) {
+      const double radius = rods.edge_radius(rod, i);
+      if (line == nullptr || radius != rods.edge_radius(rod, i - 1)) {
+        line = &canvas.add("tensions", Marker::LINE_LIST);
+        line->scale.x = 2.2 * radius;
+      }
+      Marker& marker = *line;
       append_line(rods.positions[i], rods.positions[i + 1],
                   color(tension_color(tensions[i] / full)), marker);
     }

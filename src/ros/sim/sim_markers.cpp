@@ -61,9 +61,9 @@ void SimMarkers::begin(const fiber::SimScene& scene) {
          {std::make_pair(fiber + "/first", 0U),
           std::make_pair(fiber + "/last", rods.given_node_count(rod) - 1)}) {
       ends_[name] = {rod, node};
-      server_.insert(
-          handle(name, scene.frame_id, rods.radii[rod], rods.positions[rods.first(rod) + node]),
-          [this](const auto& feedback) { receive(*feedback); });
+      server_.insert(handle(name, scene.frame_id, rods.node_radius(rod, rods.first(rod) + node),
+                            rods.positions[rods.first(rod) + node]),
+                     [this](const auto& feedback) { receive(*feedback); });
     }
   }
   server_.applyChanges();

@@ -24,8 +24,7 @@ ContactNeighbours::ContactNeighbours(const Rods& rods) : arcs_(contact_arcs(rods
 bool ContactNeighbours::are_near_by_joints(const Rods& rods, std::uint32_t rod_a,
                                            std::uint32_t edge_a, std::uint32_t rod_b,
                                            std::uint32_t edge_b) const {
-  const double limit =
-      0.5 * (contact_neighbour_length(rods, rod_a) + contact_neighbour_length(rods, rod_b));
+  const double limit = contact_neighbour_length(rods, rod_a, edge_a, rod_b, edge_b);
   return is_near(rods, edge_a, limit, rod_b, edge_b, false) ||
          is_near(rods, edge_a + 1, limit, rod_b, edge_b, false);
 }

@@ -309,11 +309,11 @@ void ContactSet::add_forces(const Rods& rods, std::vector<RodForces::ContactForc
   const auto press = [&](const ContactPoints& points, const DistanceTerm& term) {
     RodForces::ContactForce& force = force_of(points);
     const Vector3d on_a = point_at(rods.positions, points.edge_a, points.s);
-    Vector3d between = on_a - rods.radii[points.rod_a] * term.normal;
+    const double radius_a = rods.edge_radius(points.rod_a, points.edge_a);
+    Vector3d between = on_a - radius_a * term.normal;
     if (points.is_of_rods()) {
       const Vector3d on_b = point_at(rods.positions, points.edge_b, points.t);
-      const double share =
-          rods.radii[points.rod_a] / (rods.radii[points.rod_a] + rods.radii[points.rod_b]);
+      const double share = radius_a / (radius_a + rods.edge_radius(points.rod_b, points.edge_b));
       between = on_a + share * (on_b - on_a);
     }
     force.normal_force -= term.slope * term.normal;

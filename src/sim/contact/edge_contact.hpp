@@ -12,11 +12,12 @@ namespace fiber {
 constexpr std::uint32_t contact_neighbour_skip = 1;
 
 /// Edges with less of the rod between them than this, measured at rest, are never in contact
-/// either: four radii [m]. A rod that turns back in a half-circle of that length has 2.5 radii
-/// between its axes, and does not touch itself: however long its edges are, a contact needs a
-/// sharper bend or a loop.
-inline double contact_neighbour_length(const Rods& rods, std::uint32_t rod) {
-  return 4.0 * rods.radii[rod];
+/// either: twice the sum of their radii, four radii of a rod that is as thick all along [m]. A rod
+/// that turns back in a half-circle of that length has 2.5 radii between its axes, and does not
+/// touch itself: however long its edges are, a contact needs a sharper bend or a loop.
+inline double contact_neighbour_length(const Rods& rods, std::uint32_t rod_a, std::uint32_t edge_a,
+                                       std::uint32_t rod_b, std::uint32_t edge_b) {
+  return 2.0 * (rods.edge_radius(rod_a, edge_a) + rods.edge_radius(rod_b, edge_b));
 }
 
 /// Whether two edges of one rod are too near each other along it to be in contact.
@@ -26,7 +27,7 @@ inline bool are_contact_neighbours(const Rods& rods, const std::vector<double>& 
   const std::uint32_t first = edge_a < edge_b ? edge_a : edge_b;
   const std::uint32_t last = edge_a < edge_b ? edge_b : edge_a;
   return last - first <= contact_neighbour_skip ||
-         arcs[last] - arcs[first + 1] < contact_neighbour_length(rods, rod);
+         arcs[last] - arcs[first + 1] < contact_neighbour_length(rods, rod, first, rod, last);
 }
 
 /// Arc lengths at rest of all nodes from their rod's first one [m].

@@ -28,13 +28,13 @@ std::optional<SurfaceLevers> surface_levers(const Rods& rods, const ContactPoint
     return {arm, direction.tangent, 1.0 / direction.length,
             director_turn(rods.start_tangents[edge], direction)};
   };
-  const double radius = rods.radii[points.rod_a];
+  const double radius = rods.edge_radius(points.rod_a, points.edge_a);
   const Vector3d zero = Vector3d::Zero();
   if (!points.is_of_rods()) {
     return SurfaceLevers{lever(points.edge_a, -radius * normal),
                          SurfaceLever{zero, zero, 0.0, zero}};
   }
-  const double other_radius = rods.radii[points.rod_b];
+  const double other_radius = rods.edge_radius(points.rod_b, points.edge_b);
   const double distance = normal.dot(difference_of_points(rods.positions, points));
   const double share = distance / (radius + other_radius);
   return SurfaceLevers{lever(points.edge_a, -share * radius * normal),

@@ -231,9 +231,9 @@ Plasticity::Plasticity(Rods& rods, const Options& options) : options_(options) {
 
 void Plasticity::end_step(Rods& rods, const TimeStep& /*step*/) {
   for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
-    const double yield = options_.yield_strain / rods.radii[rod];
-    const auto bend = [&](std::uint32_t node, std::uint32_t edge, std::uint32_t next,
-                          double length) {
+    const auto bend = [&](std::uint32_t node, std::uint32_t edge, std::uint32_t next, double length,
+                          double share) {
+      const double yield = share * options_.yield_strain / rods.node_radius(rod, node);
       const Vector3d turn = edge_direction(rods, next).tangent - edge_direction(rods, edge).tangent;
       const double half_turn = std::min(1.0, 0.5 * turn.norm());
       const double curvature = 2.0 * std::asin(half_turn) / length;
@@ -247,10 +247,10 @@ void Plasticity::end_step(Rods& rods, const TimeStep& /*step*/) {
     const std::uint32_t first = rods.first(rod);
     const std::uint32_t last = rods.end(rod) - 1;
     for (std::uint32_t i = first + 1; i < last; ++i) {
-      bend(i, i - 1, i, rods.rest_length_at(i));
+      bend(i, i - 1, i, rods.rest_length_at(i), rods.bending_share_at(i));
     }
     if (rods.is_closed(rod)) {
-      bend(first, last - 1, first, rods.rest_length_at_seam(rod));
+      bend(first, last - 1, first, rods.rest_length_at_seam(rod), 1.0);
       rods.natural_curvatures[last] = rods.natural_curvatures[first];
     }
   }

@@ -160,7 +160,9 @@ EdgePair FiberContact::candidate(const Rods& rods, const Contact& contact) const
   pair.edge_a = rods.first(pair.rod_a) + contact.segment_a;
   pair.rod_b = contact.fiber_b;
   pair.edge_b = rods.first(pair.rod_b) + contact.segment_b;
-  const double touching = rods.radii[pair.rod_a] + rods.radii[pair.rod_b];
+  const double radius_a = rods.edge_radius(pair.rod_a, pair.edge_a);
+  const double radius_b = rods.edge_radius(pair.rod_b, pair.edge_b);
+  const double touching = radius_a + radius_b;
   const double stiffness =
       options_.stiffness > 0.0
           ? options_.stiffness
@@ -170,9 +172,14 @@ EdgePair FiberContact::candidate(const Rods& rods, const Contact& contact) const
   pair.restitution = options_.restitution;
   // Two pairs of edges contain the contact of a node and another edge: those of the node's two
   // edges. The pair of the edge further along the rod owns it, for it exists if the other pair
-  // does. The first node of a closed rod is its last one.
-  pair.owns = {pair.edge_a == rods.first(pair.rod_a) && !rods.is_closed(pair.rod_a), true, true,
-               pair.edge_b + 2 == rods.end(pair.rod_b) && !rods.is_closed(pair.rod_b)};
+  // does. The first node of a closed rod is its last one. Where a rod becomes thicker, both own it.
+  const bool is_step_a = pair.edge_a > rods.first(pair.rod_a) &&
+                         rods.edge_radius(pair.rod_a, pair.edge_a - 1) != radius_a;
+  const bool is_step_b = pair.edge_b + 2 < rods.end(pair.rod_b) &&
+                         rods.edge_radius(pair.rod_b, pair.edge_b + 1) != radius_b;
+  pair.owns = {
+      is_step_a || (pair.edge_a == rods.first(pair.rod_a) && !rods.is_closed(pair.rod_a)), true,
+      true, is_step_b || (pair.edge_b + 2 == rods.end(pair.rod_b) && !rods.is_closed(pair.rod_b))};
   for (std::uint32_t end = 0; end < 4; ++end) {
     const bool is_of_a = end < 2;
     const std::uint32_t other_rod = is_of_a ? pair.rod_b : pair.rod_a;
@@ -180,7 +187,8 @@ EdgePair FiberContact::candidate(const Rods& rods, const Contact& contact) const
     const std::uint32_t own_rod = is_of_a ? pair.rod_a : pair.rod_b;
     const std::uint32_t own = is_of_a ? pair.edge_a : pair.edge_b;
     const auto may_touch = [&](std::uint32_t edge) {
-      return !neighbours_->contain(rods, own_rod, own, other_rod, edge);
+      return rods.edge_radius(other_rod, edge) == (is_of_a ? radius_b : radius_a) &&
+             !neighbours_->contain(rods, own_rod, own, other_rod, edge);
     };
     pair.has_neighbour[end] = {other > rods.first(other_rod) && may_touch(other - 1),
                                other + 2 < rods.end(other_rod) && may_touch(other + 1)};
@@ -287,7 +295,6 @@ void EnvironmentContact::add(const Rods& rods, const Contact& contact, double wi
                              ContactSet& found) const {
   const ObstacleShape& shape = shapes_[contact.fiber_b][contact.segment_b];
   const std::uint32_t rod = contact.fiber_a;
-  const double radius = rods.radii[rod];
   const bool is_edge = contact.segment_a % 2 == 1;
   // The distance from a half-space is linear along an edge, so that its nodes suffice.
   if (is_edge && std::holds_alternative<HalfSpaceShape>(*shape.shape)) {
@@ -302,11 +309,12 @@ void EnvironmentContact::add(const Rods& rods, const Contact& contact, double wi
         {rod,
          edge,
          &shape,
-         contact.distance + radius,
+         contact.distance + rods.radii[rod],
          contact.point_b,
          -contact.normal,
          {fibers_.points()[std::size_t{2} * edge], fibers_.points()[std::size_t{2} * edge + 2]}});
   }
+  const double radius = is_edge ? rods.edge_radius(rod, edge) : rods.node_radius(rod, node);
   const Barrier barrier = Barrier::around(
       radius, options_.stiffness > 0.0 ? options_.stiffness
                                        : material_contact_stiffness(rods.sections[rod], radius));

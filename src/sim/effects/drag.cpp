@@ -115,7 +115,11 @@ Drag::Node Drag::node_at(const Rods& rods, std::uint32_t rod, std::uint32_t node
   const Vector3d relative = wind - rods.velocities[node];
   const double along = tangent.dot(relative);
   const double across = (relative - along * tangent).norm();
-  const double area = 2.0 * rods.radii[rod] * length;
+  const double area =
+      rods.edge_radii.empty()
+          ? 2.0 * rods.radii[rod] * length
+          : (node > first ? rods.rest_lengths[node - 1] * rods.edge_radii[node - 1] : 0.0) +
+                rods.rest_lengths[node] * rods.edge_radii[node];
   const double scale = 0.5 * options_.fluid_density * area / step.length;
   return {tangent, position + step.length * wind, scale * options_.across * across,
           scale * options_.along * std::abs(along)};

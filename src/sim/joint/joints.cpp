@@ -308,16 +308,21 @@ void Joints::end_step(const Rods& rods) {
 
 FiberAssembly assembly_of(const Rods& rods) {
   if (rods.joints.empty()) {
-    return {rods.positions, rods.offsets, rods.radii};
+    return {rods.positions, rods.offsets, rods.assembly_radii()};
   }
   std::vector<std::uint32_t> members;  // by joint: given points
   FiberTopology topology;
+  const std::vector<double> all_radii = rods.assembly_radii();
+  std::vector<double> radii = rods.edge_radii.empty() ? all_radii : std::vector<double>();
   topology.closed = rods.closed;
   std::vector<Vector3d> points;
   std::vector<std::uint32_t> offsets{0};
   for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
     for (std::uint32_t i = 0; i < rods.given_node_count(rod); ++i) {
       points.push_back(rods.positions[rods.first(rod) + i]);
+      if (!rods.edge_radii.empty()) {
+        radii.push_back(all_radii[rods.first(rod) + i]);
+      }
       const std::int32_t joint = rods.joints[rods.first(rod) + i];
       topology.joints.push_back(joint);
       if (joint >= 0) {
@@ -334,7 +339,7 @@ FiberAssembly assembly_of(const Rods& rods) {
   if (std::all_of(topology.joints.begin(), topology.joints.end(), [](auto j) { return j < 0; })) {
     topology.joints.clear();
   }
-  return {points, offsets, rods.radii, topology};
+  return {points, offsets, radii, topology};
 }
 
 }  // namespace fiber

@@ -11,19 +11,58 @@ namespace fiber {
 
 using Eigen::Vector3d;
 
-NodesAt nodes_at(const std::vector<double>& shares, std::int64_t segments) {
+namespace {
+
+/// How far along the rest of a fibre something is, and how many rigid parts are before it.
+struct Along {
+  double share;  // of the rest's length
+  std::int64_t rigid;
+};
+
+Along along_rest(double share, const RigidShares& rigid) {
+  double total = 1.0;
+  for (const auto& [from, to] : rigid) {
+    total -= to - from;
+  }
+  Along along{0.0, 0};
+  double begin = 0.0;
+  for (const auto& [from, to] : rigid) {
+    if (share < to) {
+      break;
+    }
+    along.share += from - begin;
+    begin = to;
+    ++along.rigid;
+  }
+  along.share += share - begin;
+  along.share = total > 0.0 && !rigid.empty() ? along.share / total : along.share;
+  return along;
+}
+
+}  // namespace
+
+NodesAt nodes_at(const std::vector<double>& shares, std::int64_t segments,
+                 const RigidShares& rigid) {
+  const std::int64_t edges = segments - static_cast<std::int64_t>(rigid.size());
+  const bool ends_rigid = !rigid.empty() && rigid.back().second == 1.0;
   NodesAt nodes;
   for (const double share : shares) {
+    const Along along = along_rest(share, rigid);
     const auto nearest =
-        static_cast<std::int64_t>(std::llround(share * static_cast<double>(segments)));
-    const std::int64_t node = share == 0.0   ? 0
-                              : share == 1.0 ? segments
-                                             : std::clamp<std::int64_t>(nearest, 1, segments - 1);
-    const auto number = static_cast<std::uint32_t>(node);
+        static_cast<std::int64_t>(std::llround(along.share * static_cast<double>(edges)));
+    const bool is_last = share == 1.0 || (ends_rigid && share == rigid.back().first);
+    const bool is_first = share == 0.0 || (!rigid.empty() && rigid.front().first == 0.0 &&
+                                           share == rigid.front().second);
+    const std::int64_t node =
+        is_first  ? 0
+        : is_last ? edges
+                  : std::clamp<std::int64_t>(nearest, 1, std::max<std::int64_t>(1, edges - 1));
+    const auto number = static_cast<std::uint32_t>(std::max<std::int64_t>(0, node + along.rigid));
     if ((!nodes.empty() && std::prev(nodes.end())->second >= number) ||
-        (segments == 1 && share != 0.0 && share != 1.0)) {
+        (edges <= 1 && !is_first && !is_last) || edges < 0) {
       throw std::invalid_argument(format(
-          "its ", segments, " segment(s) are too few for a joint at ", share,
+          "its ", segments, " segment(s) are too few for a joint or the end of a section at ",
+          share,
           nodes.empty() ? std::string() : format(" beside one at ", std::prev(nodes.end())->first),
           " of its length"));
     }

@@ -10,6 +10,7 @@
 #include "src/sim/scene/keys.hpp"
 #include "src/sim/scene/named_nodes.hpp"
 #include "src/sim/scene/parts.hpp"
+#include "src/sim/scene/sections.hpp"
 #include "src/text/with_context.hpp"
 
 namespace fiber {
@@ -19,34 +20,6 @@ namespace {
 constexpr std::int64_t fine_segments = 1000;
 
 constexpr std::int64_t min_closed_segments = 3;
-
-RodMaterial read_preset(const YamlField& field) {
-  return with_context(field.place(), [&] { return material_preset(field.text()); });
-}
-
-/// A preset's name, or the moduli and so on; with both, these replace the preset's.
-/// @param otherwise what is taken for values that neither of them gives
-/// @param defaults  these values, and what is taken
-RodMaterial read_material(const YamlField& field, const RodMaterial& otherwise,
-                          std::string& defaults) {
-  if (field.is_text()) {
-    return read_preset(field);
-  }
-  field.require_map(key_names("material"));
-  const auto preset = field.find("preset");
-  RodMaterial material = preset ? read_preset(*preset) : otherwise;
-  const auto read = [&](const char* key, double& value, const char* unit) {
-    if (!preset && !field.find(key)) {
-      defaults += format(defaults.empty() ? "" : ", ", key, " ", value, unit);
-    }
-    field.read(key, value);
-  };
-  read("youngs_modulus", material.youngs_modulus, " Pa");
-  read("shear_modulus", material.shear_modulus, " Pa");
-  read("density", material.density, " kg/m^3");
-  read("bending_share", material.bending_share, "");
-  return material;
-}
 
 double length_of(const std::vector<Eigen::Vector3d>& curve) {
   double length = 0.0;
@@ -132,43 +105,6 @@ void set_velocities(const FiberEntry& entry, Rods& rods) {
   }
 }
 
-/// @param material of the fibre
-void read_sections(const YamlField& entry, const RodMaterial& material, FiberEntry& fiber) {
-  const auto list = entry.find("sections");
-  if (!list || !(fiber.length > 0.0)) {  // without a length it is refused when it is cut
-    return;
-  }
-  double end = 0.0;  // of the section before
-  for (const YamlField& each : list->items()) {
-    each.require_map(key_names("section"));
-    const RodPart part = read_part(each, fiber.length);
-    if (part.from < end) {
-      throw std::invalid_argument(each.place() + " begins at " + std::to_string(part.from) +
-                                  " m, it must be behind the section before, which ends at " +
-                                  std::to_string(end) + " m");
-    }
-    end = part.to;
-    const YamlField given = each.get("material");
-    std::string inherited;
-    fiber.sections.push_back({part, with_context(given.place(), [&] {
-                                return solid_round_section(
-                                    read_material(given, material, inherited), fiber.radius);
-                              })});
-  }
-}
-
-/// Gives the last rod, which is that of an entry, its sections.
-void set_sections(const FiberEntry& entry, Rods& rods) {
-  const std::uint32_t rod = rods.count() - 1;
-  std::vector<RodSectionPart> parts;
-  for (const SectionEntry& each : entry.sections) {
-    parts.push_back({along_edges(each.part, entry.length, rods, rod), each.section});
-  }
-  if (!parts.empty()) {
-    rods.set_sections(rod, parts);
-  }
-}
-
 /// Leads a curve back to where it begins.
 void close_curve(const YamlField& closed, std::vector<Eigen::Vector3d>& curve) {
   constexpr std::size_t min_points = 3;
@@ -207,7 +143,9 @@ void read_body(const YamlField& entry, bool chooses_segments, FiberEntry& fiber)
   const RodMaterial material = read_material(given, RodMaterial(), fiber.material_defaults);
   fiber.section =
       with_context(given.place(), [&] { return solid_round_section(material, fiber.radius); });
-  read_sections(entry, material, fiber);
+  if (fiber.length > 0.0) {  // without a length it is refused when it is cut
+    fiber.sections = read_sections(entry, {material, fiber.radius, fiber.length});
+  }
 }
 
 FiberEntry read_fiber(const YamlField& entry, bool chooses_segments) {
@@ -233,9 +171,7 @@ void add(const FiberEntry& entry, std::int64_t segments, SimDescription& scene) 
                " leaves values open, for which are taken: ", entry.material_defaults));
   }
   NodesAt nodes;
-  with_fiber_name(entry.name, [&] {
-    with_context(entry.place, [&] { nodes = nodes_at(entry.joint_shares, segments); });
-  });
+  with_fiber_name(entry.name, [&] { nodes = nodes_of(entry, segments); });
   const std::vector<Eigen::Vector3d> points =
       nodes.empty() ? resample(entry.curve, segments) : cut_curve(entry.curve, segments, nodes);
   for (std::int64_t i = 0; i < entry.count.value_or(1); ++i) {
@@ -247,7 +183,7 @@ void add(const FiberEntry& entry, std::int64_t segments, SimDescription& scene) 
     with_fiber_name(entry.name, [&] {
       with_context(entry.place, [&] {
         scene.rods.add(moved, entry.radius, entry.section);
-        set_sections(entry, scene.rods);
+        set_sections(entry, nodes, scene.rods);
         set_velocities(entry, scene.rods);
       });
     });

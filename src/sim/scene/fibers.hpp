@@ -14,6 +14,9 @@ namespace fiber {
 struct SectionEntry {
   RodPart part;  ///< along the curve [m]
   RodSection section;
+  std::optional<double> radius;  ///< [m] none: the fibre's
+  bool is_rigid = false;
+  std::string place;  ///< where it stands, for errors
 };
 
 /// A fibre of a scene before it is cut into segments, or several of them by `repeat`.

@@ -105,8 +105,34 @@ void require_new(const std::string& place, const SimDescription& scene,
   }
 }
 
+/// Makes a rod with sections one that is at rest where it is: what its edges are longer or shorter
+/// by is of its own section.
+void rest_again_in_sections(Rods& rods, std::uint32_t rod) {
+  SectionLengths& lengths = rods.section_lengths;
+  for (std::uint32_t i = rods.first(rod); i + 1 < rods.end(rod); ++i) {
+    const double before = rods.rest_lengths[i];
+    rods.rest_lengths[i] = (rods.positions[i + 1] - rods.positions[i]).norm();
+    const double half = 0.5 * (rods.rest_lengths[i] - before);
+    const bool is_rigid = !rods.rigid_edges.empty() && rods.rigid_edges[i] != 0;
+    const double ratio = rods.rest_lengths[i] / before;
+    lengths.stretching[i] *= ratio;
+    lengths.inertias[i] *= ratio;
+    for (const std::uint32_t node : {i, i + 1}) {
+      rods.masses[node] += half * rods.sections[rod].mass_per_length;
+      if (!is_rigid) {
+        lengths.bending[node] += half;
+        lengths.twisting[node] += half;
+      }
+    }
+  }
+}
+
 /// Makes a rod of a scene one that is at rest where it is.
 void rest_again(Rods& rods, std::uint32_t rod) {
+  if (!rods.section_lengths.empty()) {
+    rest_again_in_sections(rods, rod);
+    return;
+  }
   for (std::uint32_t i = rods.first(rod); i < rods.end(rod); ++i) {
     rods.masses[i] = 0.0;
   }
@@ -123,7 +149,7 @@ void meet(const std::string& place, const Joints::Joint& joint, SimDescription& 
   Rods& rods = scene.rods;
   double allowed = 0.0;
   for (const JointNode& node : joint.nodes) {
-    allowed = std::max(allowed, rods.radii[node.rod]);
+    allowed = std::max(allowed, rods.node_radius(node.rod, rods.first(node.rod) + node.node));
   }
   const JointNode& first = joint.nodes.front();
   const Vector3d at = rods.positions[rods.first(first.rod) + first.node];

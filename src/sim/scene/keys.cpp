@@ -58,7 +58,7 @@ std::vector<SceneMap> fiber_maps() {
         count_key("segments", max_segments, needed,
                   "of equal length; the fibres of a scene have no more than these together. Chosen "
                   "where it is absent and there is `accuracy` or `real_time`"),
-        number_key("radius", above_0, needed, "m", "the same all along the fibre"),
+        number_key("radius", above_0, needed, "m", "of all of it but sections that have their own"),
         other_key("material", "a preset, or a map of moduli", needed, "", "see below"),
         other_key("closed", "true or false", "false", "",
                   "its last segment leads back to where it begins; of three segments at least. Its "
@@ -72,11 +72,10 @@ std::vector<SceneMap> fiber_maps() {
         other_key("angular_velocity", three_numbers, "[0, 0, 0]", "rad/s",
                   "about its centre of mass, to begin with; added to the above"),
         other_key("sections", "a list of parts of its length", "", "",
-                  "that have materials of their own; see below")}},
+                  "that have materials or radii of their own, or are rigid; see below")}},
       {"section",
-       "An entry of the list `sections` of a fibre, one behind the other. The radius is that of "
-       "the "
-       "fibre.",
+       "An entry of the list `sections` of a fibre, one behind the other. Those with a radius of "
+       "their own and rigid ones begin and end at nodes.",
        false,
        {number_key("from", at_least_0, "", "m",
                    "along the fibre, where it begins: not before the end of the section before; 0 "
@@ -84,9 +83,14 @@ std::vector<SceneMap> fiber_maps() {
         number_key("to", above_0, "", "m",
                    "along the fibre, where it ends: the fibre's length at most, and that if it is "
                    "absent"),
-        other_key("material", "a preset, or a map of moduli", needed, "",
+        other_key("material", "a preset, or a map of moduli", "", "",
                   "as that of a fibre; values that a map without a preset leaves open are the "
-                  "fibre's")}},
+                  "fibre's. Needed where there is neither a radius nor `rigid`"),
+        number_key("radius", above_0, "", "m",
+                   "for contacts, stiffness and mass; the fibre's if absent"),
+        other_key("rigid", "true or false", "false", "",
+                  "it neither bends nor twists: a plug. It is one segment of its length, straight, "
+                  "and gives way to tension by its material")}},
       {"repeat",
        "The key `repeat` of a fibre: fibres `NAME_0`, `NAME_1`, and so on.",
        false,

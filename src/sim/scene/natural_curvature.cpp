@@ -50,6 +50,21 @@ SimCurvature read_natural_curvature(const YamlField& bend, bool has_twist) {
   return read;
 }
 
+namespace {
+
+/// Rigid parts have no natural curvature: what a node beside one turns by is that of its other
+/// edge.
+template <class Curvatures>
+void leave_rigid_parts_out(const Rods& rods, Curvatures& curvatures) {
+  for (std::uint32_t rod = 0; rod < rods.count() && !rods.rigid_edges.empty(); ++rod) {
+    for (std::uint32_t i = rods.first(rod) + 1; i + 1 < rods.end(rod); ++i) {
+      curvatures[i] *= rods.bending_share_at(i);
+    }
+  }
+}
+
+}  // namespace
+
 void set_natural_curvature(const SimDescription& scene, Rods& rods) {
   const SimCurvature& natural = scene.natural_curvature;
   if (natural.is_from_shape) {
@@ -65,8 +80,10 @@ void set_natural_curvature(const SimDescription& scene, Rods& rods) {
                                     quote(scene.fiber_names[rod]) + ")");
       }
     }
+    leave_rigid_parts_out(rods, rods.natural_curvature_vectors);
   } else if (natural.curvature > 0.0) {
     rods.natural_curvatures.assign(rods.positions.size(), natural.curvature);
+    leave_rigid_parts_out(rods, rods.natural_curvatures);
   }
 }
 

@@ -24,7 +24,8 @@ double seconds_since(Clock::time_point begin) {
 }
 
 double thinnest(const Rods& rods) {
-  return *std::min_element(rods.radii.begin(), rods.radii.end());
+  const std::vector<double>& radii = rods.edge_radii.empty() ? rods.radii : rods.edge_radii;
+  return *std::min_element(radii.begin(), radii.end());
 }
 
 /// Bending waves shorter than this go faster than steps [m]: those of ω h = 1, ω = k² √(EI/ρA).

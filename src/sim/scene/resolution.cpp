@@ -70,7 +70,11 @@ std::uint32_t SceneResolution::substeps_for(const SimDescription& scene, double 
       period = std::min(period, swing_period(fiber.section, fiber.length, gravity_));
     }
     if (scene.has_contacts) {
-      longest = std::min(longest, max_contact_step(fiber.radius, gravity_));
+      double thinnest = fiber.radius;
+      for (const SectionEntry& section : fiber.sections) {
+        thinnest = std::min(thinnest, section.radius.value_or(thinnest));
+      }
+      longest = std::min(longest, max_contact_step(thinnest, gravity_));
     }
   }
   const double for_contacts = std::ceil(scene.time_step / longest);

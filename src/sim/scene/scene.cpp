@@ -126,14 +126,17 @@ std::string describe(const std::vector<Overlap>& overlaps, const SimDescription&
   const Contact& contact = deepest.contact;
   const SimFiber& a = scene.fibers[contact.fiber_a];
   const std::string segment_a = format("segment ", contact.segment_a, " of fibre ", quote(a.name));
-  double touching = rods.radii[contact.fiber_a];
+  const auto radius_of = [&](std::uint32_t rod, std::uint32_t segment) {
+    return rods.edge_radius(rod, rods.first(rod) + segment);
+  };
+  double touching = radius_of(contact.fiber_a, contact.segment_a);
   std::string other;
   if (deepest.is_object) {
     other = format("obstacle ", quote(scene.environment->objects()[contact.fiber_b].name), ": ",
                    segment_a, " is ");
   } else {
     const SimFiber& b = scene.fibers[contact.fiber_b];
-    touching += rods.radii[contact.fiber_b];
+    touching += radius_of(contact.fiber_b, contact.segment_b);
     other = format(contact.fiber_a == contact.fiber_b ? "itself" : b.place, ": ", segment_a,
                    " and segment ", contact.segment_b, " of fibre ", quote(b.name), " are ");
   }

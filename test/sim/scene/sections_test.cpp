@@ -58,10 +58,9 @@ TEST_F(SimSceneTest, SectionsThatCannotBeAreErrors) {
       {"{from: 0.2, material: {density: -1}}",
        "4: fibers[0].sections[0].material: density is -1.000000, it must be positive and finite "
        "(fibre 'cable')"},
-      {"{from: 0.2, radius: 0.1, material: hair}",
-       "4: fibers[0].sections[0] has the unknown key 'radius', known are: from, to, material "
-       "(fibre "
-       "'cable')"},
+      {"{from: 0.2, colour: 1, material: hair}",
+       "4: fibers[0].sections[0] has the unknown key 'colour', known are: from, to, material, "
+       "radius, rigid (fibre 'cable')"},
   };
   for (const auto& [sections, expected] : refused) {
     EXPECT_EQ(error(with_sections(sections)), expected) << sections;
