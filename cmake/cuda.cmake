@@ -22,6 +22,7 @@ add_library(fiber_proximity_cuda SHARED
   src/cuda/cuda_tree_engine.cpp
   src/cuda/device_fibers.cpp
   src/cuda/device_proximity.cpp
+  src/cuda/host_device.cpp
 )
 if(cuda_missing)
   message(STATUS "Engine of GPUs: left out, ${cuda_missing}")
@@ -51,7 +52,3 @@ target_link_options(fiber_proximity_cuda PRIVATE LINKER:-z,nodelete)
 set_target_properties(fiber_proximity_cuda PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
 fiber_proximity_parse_once(fiber_proximity_cuda ${core_headers})
 fiber_proximity_component(cuda fiber_proximity_cuda)
-
-# For tests: the same kernels as loops.
-add_library(fiber_proximity_host_device STATIC EXCLUDE_FROM_ALL src/cuda/host_device.cpp)
-target_link_libraries(fiber_proximity_host_device PUBLIC fiber_proximity_cuda PRIVATE fiber_proximity_options)

@@ -65,7 +65,7 @@ function(fiber_proximity_gtest name)
     endif()
   endif()
   target_link_libraries(${name}
-    fiber_proximity_paper fiber_proximity_scenes fiber_proximity_host_device fiber_proximity_options test_support ${ARG_LIBRARIES})
+    fiber_proximity_paper fiber_proximity_scenes fiber_proximity_cuda fiber_proximity_options test_support ${ARG_LIBRARIES})
   add_dependencies(unit_tests ${name})
   set_property(TARGET unit_tests APPEND PROPERTY PROGRAMS $<TARGET_FILE:${name}>)
   set(speed fast)

@@ -109,7 +109,7 @@ sort_out() {
       share/fiber_proximity/cmake/fiber_proximity-mpi*.cmake
     take "$cluster" lib/libfiber_proximity_mpi.so.*
   fi
-  local libraries=(lib/libfiber_proximity{,_compare,_environment,_paper,_scenes,_sim}.so)
+  local libraries=(lib/libfiber_proximity{,_compare,_cuda,_environment,_paper,_scenes,_sim}.so)
   take "$development" "${libraries[@]}" include lib/pkgconfig share/fiber_proximity/cmake
   take "$library" "${libraries[@]/%/.$abi}"
   take_tools "$library" fiber_{query,scene,simulate}

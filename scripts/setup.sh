@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs what building, testing and the demo need, and is quick when nothing is missing.
-#   scripts/setup.sh [--lint] [--bench] [--fuzz] [--sanitize] [--mpi] [--tarballs FOLDER] [--verbose]
+#   scripts/setup.sh [--lint] [--bench] [--fuzz] [--sanitize] [--mpi] [--cuda] [--tarballs FOLDER] [--verbose]
 #     --lint    also what scripts/lint.sh needs
 #     --bench   also the libraries fiber_bench compares with (benchmark/README.md), on Debian, and
 #               what draws its plots
@@ -9,6 +9,7 @@
 #     --sanitize  also what scripts/sanitize.sh needs, on Debian: g++ 11, for the same reason
 #     --mpi     also what the library for clusters needs, on Debian: Open MPI, Zoltan, parallel
 #               HDF5
+#     --cuda    look for CUDA's compiler, which the engine of GPUs is built with, and say where to get it
 #     --verbose all that installing writes
 # Debian 12: ROS 1 from Debian's own packages, with apt, as root or through sudo; Ubuntu 22.04 (never tried) alike.
 # Ubuntu with ROS Noetic: through rosdep.
@@ -17,12 +18,13 @@ cd "$(dirname "$0")/.."
 # shellcheck source=scripts/progress.sh
 source scripts/progress.sh
 
-usage="usage: scripts/setup.sh [--lint] [--bench] [--fuzz] [--sanitize] [--mpi] [--tarballs FOLDER] [--verbose]"
+usage="usage: scripts/setup.sh [--lint] [--bench] [--fuzz] [--sanitize] [--mpi] [--cuda] [--tarballs FOLDER] [--verbose]"
 lint=false
 bench=false
 fuzz=false
 sanitize=false
 mpi=false
+cuda=false
 bring=()
 while [ $# -gt 0 ]; do
   case "$1" in
@@ -31,6 +33,7 @@ while [ $# -gt 0 ]; do
     --fuzz) fuzz=true ;;
     --sanitize) sanitize=true ;;
     --mpi) mpi=true ;;
+    --cuda) cuda=true ;;
     --tarballs)
       [ $# -ge 2 ] || { echo "setup.sh: --tarballs needs a folder; $usage" >&2; exit 2; }
       bring=(--tarballs "$2")
@@ -42,6 +45,12 @@ while [ $# -gt 0 ]; do
   esac
   shift
 done
+
+if $cuda && ! command -v nvcc >/dev/null && [ ! -x /usr/local/cuda/bin/nvcc ]; then
+  echo "setup.sh: CUDA's compiler nvcc is neither on PATH nor in /usr/local/cuda/bin: install NVIDIA's cuda-toolkit, 11.4" \
+    "or newer, or Debian's nvidia-cuda-toolkit (non-free)" >&2
+  exit 1
+fi
 
 # Message definitions (ros-*) and Python modules come beside the headers: Debian only recommends them.
 packages=(

@@ -37,6 +37,8 @@ while [ $# -gt 0 ]; do
   shift
 done
 
+# For the GPU engine one kind of code is enough, which any GPU can compile further.
+cmake_arguments+=(-DCMAKE_CUDA_ARCHITECTURES=75)
 if $all; then
   cmake_arguments+=(-DFIBER_PROXIMITY_BUILD_BENCHMARKS=ON)
   export FIBER_PROXIMITY_TEST_ENGINES=all

@@ -103,8 +103,8 @@ class Device {
   virtual double seconds() const = 0;
 };
 
-/// Kernels as loops on this processor: the same answers without a GPU, for tests.
-std::unique_ptr<Device> make_host_device();
+/// Kernels as loops on this processor: the same answers without a GPU, for tests and trials.
+FIBER_PROXIMITY_EXPORT std::unique_ptr<Device> make_host_device();
 
 /// Whether this library was built with CUDA's compiler.
 FIBER_PROXIMITY_EXPORT bool has_cuda();

@@ -48,7 +48,7 @@ class DeviceProximity {
   /// @param radii   [m] one for all fibres, one per fibre, or one per point, on the host
   /// @throws std::invalid_argument as FiberAssembly, std::runtime_error without a GPU that serves
   DeviceProximity(std::vector<std::uint32_t> offsets, std::vector<double> radii);
-  /// On another device, for tests.
+  /// On another device than the GPU, for tests and trials.
   DeviceProximity(std::unique_ptr<Device> device, std::vector<std::uint32_t> offsets,
                   std::vector<double> radii);
   ~DeviceProximity();

@@ -28,7 +28,7 @@ __path__ = extend_path(__path__, __name__)
 del extend_path
 
 __all__ = [
-    'CANDIDATE', 'CheckResult', 'Engine', 'Environment', 'FIBER', 'Fibers', 'Forces',
+    'CANDIDATE', 'CheckResult', 'DeviceArray', 'DeviceContacts', 'DeviceProximity', 'Engine', 'Environment', 'FIBER', 'Fibers', 'Forces',
     'MotionResult', 'OBJECT', 'QueryResult', 'Robot', 'SHAPE', 'Simulation',
     'candidate_contact_dtype', 'candidate_motion_contact_dtype', 'check', 'check_motions',
     'contact_dtype', 'crossing_dtype', 'crossings', 'engine_names', 'from_msg', 'gradients',

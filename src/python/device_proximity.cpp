@@ -1,0 +1,258 @@
+#include "fiber_proximity/cuda/device_proximity.hpp"
+
+#include <pybind11/stl.h>
+
+#include <memory>
+#include <mutex>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "src/cuda/device.hpp"
+#include "src/python/arrays.hpp"
+#include "src/python/bindings.hpp"
+#include "src/text/quote.hpp"
+
+namespace fiber::python {
+namespace {
+
+/// Points as __cuda_array_interface__ tells of them.
+struct CudaPoints {
+  std::uintptr_t address = 0;
+  bool is_single = false;
+
+  /// @throws py::type_error for numbers of another type, std::invalid_argument for another shape
+  CudaPoints(const py::dict& interface, std::size_t point_count) {
+    const auto shape = interface["shape"].cast<std::vector<std::int64_t>>();
+    if (shape.size() != 2 || shape[0] != static_cast<std::int64_t>(point_count) || shape[1] != 3) {
+      throw std::invalid_argument("points must have the shape (" + std::to_string(point_count) +
+                                  ", 3), they have " +
+                                  py::str(interface["shape"]).cast<std::string>());
+    }
+    const auto type = interface["typestr"].cast<std::string>();
+    if (type != "<f4" && type != "<f8") {
+      throw py::type_error("points on a GPU must be float32 or float64, they are " + quote(type));
+    }
+    is_single = type == "<f4";
+    const std::int64_t size = is_single ? 4 : 8;
+    if (interface.contains("strides") && !interface["strides"].is_none() && point_count > 0 &&
+        interface["strides"].cast<std::vector<std::int64_t>>() !=
+            std::vector<std::int64_t>{3 * size, size}) {
+      throw std::invalid_argument("points on a GPU must lie one after the other, in C order");
+    }
+    if (interface.contains("mask") && !interface["mask"].is_none()) {
+      throw py::type_error("points are masked");
+    }
+    address = interface["data"].cast<py::tuple>()[0].cast<std::uintptr_t>();
+  }
+};
+
+std::unique_ptr<Device> device_of(const std::string& name) {
+  if (name == "gpu") {
+    return make_cuda_device();
+  }
+  if (name == "host") {
+    return make_host_device();
+  }
+  throw std::invalid_argument("unknown device " + quote(name) + ", known are: gpu, host");
+}
+
+/// One of the fibres' engine on the GPU, as Python has it.
+class PythonDeviceProximity {
+ public:
+  PythonDeviceProximity(const py::object& offsets, const py::object& radii, std::string device)
+      : device_(std::move(device)),
+        proximity_(device_of(device_), to_indices(offsets, "offsets"), to_numbers(radii, "radii")) {
+  }
+
+  void update(const py::object& points) {
+    if (py::hasattr(points, "__cuda_array_interface__")) {
+      const CudaPoints on_device(points.attr("__cuda_array_interface__").cast<py::dict>(),
+                                 proximity_.point_count());
+      const WithoutPythonLock others_may_run;
+      const std::lock_guard<std::mutex> lock(mutex_);
+      ++generation_;
+      if (on_device.is_single) {
+        proximity_.update(reinterpret_cast<const float*>(on_device.address));
+      } else {
+        proximity_.update(reinterpret_cast<const double*>(on_device.address));
+      }
+      return;
+    }
+    const std::vector<Eigen::Vector3d> on_host = to_points(points, "points");
+    const WithoutPythonLock others_may_run;
+    const std::lock_guard<std::mutex> lock(mutex_);
+    ++generation_;
+    proximity_.update_from_host(on_host);
+  }
+
+  DeviceProximity::Contacts query(double margin, std::int64_t neighbour_skip,
+                                  const std::string& pairing, std::uint64_t& generation) {
+    const DeviceProximity::Options options{margin, to_index(neighbour_skip, "neighbour_skip"),
+                                           pairing_from_name(pairing)};
+    const WithoutPythonLock others_may_run;
+    const std::lock_guard<std::mutex> lock(mutex_);
+    generation = ++generation_;
+    return proximity_.query(options);
+  }
+
+  /// Calls while nobody asks for other contacts.
+  /// @throws std::runtime_error if somebody has, since this generation
+  template <class Call>
+  void with_current(std::uint64_t generation, const Call& call) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (generation != generation_) {
+      throw std::runtime_error(
+          "these contacts are gone: the points were updated, or others asked for");
+    }
+    call(proximity_);
+  }
+
+  bool is_on_gpu() const { return device_ == "gpu"; }
+  double device_seconds() const { return proximity_.device_seconds(); }
+
+ private:
+  std::string device_;
+  DeviceProximity proximity_;
+  std::mutex mutex_;
+  std::uint64_t generation_ = 0;
+};
+
+/// What one query has found.
+class PythonDeviceContacts {
+ public:
+  PythonDeviceContacts(std::shared_ptr<PythonDeviceProximity> of, double margin,
+                       std::int64_t neighbour_skip, const std::string& pairing)
+      : of_(std::move(of)), contacts_(of_->query(margin, neighbour_skip, pairing, generation_)) {}
+
+  std::uint32_t count() const { return contacts_.count; }
+
+  template <class Value>
+  py::dict interface(const Value* values, const char* type) const {
+    of_->with_current(generation_, [](DeviceProximity&) {});
+    if (!of_->is_on_gpu()) {
+      throw py::attribute_error("contacts of the device 'host' are on no GPU: use to_host()");
+    }
+    py::dict interface;
+    interface["shape"] = py::make_tuple(contacts_.count);
+    interface["typestr"] = type;
+    interface["data"] = py::make_tuple(reinterpret_cast<std::uintptr_t>(values), true);
+    interface["version"] = 3;
+    return interface;
+  }
+
+  py::dict to_host() const {
+    DeviceProximity::HostContacts copy;
+    {
+      const WithoutPythonLock others_may_run;
+      of_->with_current(generation_, [&](const DeviceProximity& proximity) {
+        proximity.copy_to_host(contacts_, copy);
+      });
+    }
+    py::dict arrays;
+    arrays["a"] = to_array(py::dtype("u4"), copy.a);
+    arrays["b"] = to_array(py::dtype("u4"), copy.b);
+    arrays["s"] = to_array(py::dtype("f8"), copy.s);
+    arrays["t"] = to_array(py::dtype("f8"), copy.t);
+    arrays["distance"] = to_array(py::dtype("f8"), copy.distance);
+    return arrays;
+  }
+
+  const DeviceProximity::Contacts& contacts() const { return contacts_; }
+
+ private:
+  std::shared_ptr<PythonDeviceProximity> of_;
+  std::uint64_t generation_ = 0;
+  DeviceProximity::Contacts contacts_;
+};
+
+/// One array of contacts, for whoever reads __cuda_array_interface__.
+struct PythonDeviceArray {
+  std::shared_ptr<PythonDeviceContacts> contacts;
+  py::dict (*interface)(const PythonDeviceContacts&);
+};
+
+template <auto member>
+PythonDeviceArray array_of(const std::shared_ptr<PythonDeviceContacts>& contacts) {
+  return {contacts, [](const PythonDeviceContacts& of) {
+            const auto* const values = of.contacts().*member;
+            return of.interface(values, sizeof(*values) == sizeof(double) ? "<f8" : "<u4");
+          }};
+}
+
+}  // namespace
+
+void bind_device_proximity(py::module& module) {
+  py::class_<PythonDeviceArray>(module, "DeviceArray",
+                                "Values on a GPU, to be read by whoever takes such: cupy, torch, "
+                                "warp, numba. They cannot be written.")
+      .def_property_readonly(
+          "__cuda_array_interface__",
+          [](const PythonDeviceArray& array) { return array.interface(*array.contacts); })
+      .def("__len__", [](const PythonDeviceArray& array) { return array.contacts->count(); });
+
+  using Contacts = std::shared_ptr<PythonDeviceContacts>;
+  py::class_<PythonDeviceContacts, Contacts>(
+      module, "DeviceContacts",
+      "Contacts on a GPU, sorted by a, then b; there until the next query() or update().")
+      .def_property_readonly(
+          "a", [](const Contacts& all) { return array_of<&DeviceProximity::Contacts::a>(all); },
+          "First points of the segments, uint32, the smaller one of each pair.")
+      .def_property_readonly(
+          "b", [](const Contacts& all) { return array_of<&DeviceProximity::Contacts::b>(all); },
+          "The other ones.")
+      .def_property_readonly(
+          "s", [](const Contacts& all) { return array_of<&DeviceProximity::Contacts::s>(all); },
+          "Where on segment a, from 0 to 1, float64.")
+      .def_property_readonly(
+          "t", [](const Contacts& all) { return array_of<&DeviceProximity::Contacts::t>(all); },
+          "Where on segment b.")
+      .def_property_readonly(
+          "distance",
+          [](const Contacts& all) { return array_of<&DeviceProximity::Contacts::distance>(all); },
+          "Signed gap of the surfaces [m], float64.")
+      .def("to_host", &PythonDeviceContacts::to_host,
+           "All five as arrays of numpy, in a dict by their names.")
+      .def("__len__", &PythonDeviceContacts::count);
+
+  py::class_<PythonDeviceProximity, std::shared_ptr<PythonDeviceProximity>>(module,
+                                                                            "DeviceProximity", R"(
+Contacts of fibres whose points are on a GPU, left there.
+
+Pairs, parameters and distances are those of every engine, bit for bit. The rule of loops is not
+asked: neighbours are left out by their number.
+
+Parameters
+----------
+offsets : array (fibres + 1,) of int
+    From 0 to the number of points.
+radii : float or array (fibres,) or (n,)
+    [m]
+device : str
+    ``gpu``, or ``host``: the same code as loops on the processor, to try things where no GPU is.
+)")
+      .def(py::init<const py::object&, const py::object&, std::string>(), py::arg("offsets"),
+           py::arg("radii"), py::arg("device") = "gpu")
+      .def("update", &PythonDeviceProximity::update, py::arg("points"), R"(
+Takes the points, (n, 3) [m]: anything with ``__cuda_array_interface__`` of float32 or float64 in C
+order (cupy, torch, warp, numba), or an array on the host.
+
+Raises ValueError for another shape, and for coordinates that are not finite.
+)")
+      .def(
+          "query",
+          [](const std::shared_ptr<PythonDeviceProximity>& self, double margin,
+             std::int64_t neighbour_skip, const std::string& pairing) {
+            return std::make_shared<PythonDeviceContacts>(self, margin, neighbour_skip, pairing);
+          },
+          py::arg("margin") = 0.0, py::arg("neighbour_skip") = 1, py::arg("pairing") = "all", R"(
+Finds all contacts within a finite margin [m]; a DeviceContacts.
+
+``neighbour_skip`` leaves out segments of one fibre whose indices differ by at most this;
+``pairing`` is ``all``, ``same_fiber`` or ``different_fibers``.
+)")
+      .def_property_readonly("device_seconds", &PythonDeviceProximity::device_seconds,
+                             "What the last update and the last query took on the GPU [s].");
+}
+
+}  // namespace fiber::python
