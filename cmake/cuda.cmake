@@ -37,11 +37,13 @@ else()
     message(FATAL_ERROR "CUDA ${CMAKE_CUDA_COMPILER_VERSION} is older than 11.4: set FIBER_PROXIMITY_BUILD_CUDA=OFF")
   endif()
   message(STATUS "Engine of GPUs: CUDA ${CMAKE_CUDA_COMPILER_VERSION} for ${CMAKE_CUDA_ARCHITECTURES}")
-  # Alone: the other compiler's options are not for it. Nothing is fused: the same bits as on the processor.
+  # Alone: the other compiler's options are not for it. Nothing is fused: the same bits as on the processor. Divisions
+  # of single precision, which the filter alone has, may be off by two roundings: what they give is a parameter of a
+  # point, and any serves.
   add_library(fiber_proximity_cuda_kernels OBJECT src/cuda/cuda_device.cu)
   set_target_properties(fiber_proximity_cuda_kernels PROPERTIES CUDA_STANDARD 17 CUDA_STANDARD_REQUIRED ON
     CUDA_VISIBILITY_PRESET hidden POSITION_INDEPENDENT_CODE ON)
-  target_compile_options(fiber_proximity_cuda_kernels PRIVATE --fmad=false --expt-relaxed-constexpr --threads=0
+  target_compile_options(fiber_proximity_cuda_kernels PRIVATE --fmad=false --prec-div=false --expt-relaxed-constexpr --threads=0
     -Xcompiler=-Wall,-Wextra $<$<BOOL:${FIBER_PROXIMITY_WERROR}>:--Werror=all-warnings>)
   target_sources(fiber_proximity_cuda PRIVATE src/cuda/pinned_copy.cpp)
   target_link_libraries(fiber_proximity_cuda PRIVATE fiber_proximity_cuda_kernels)

@@ -25,11 +25,19 @@ struct PairRule {
 /// whose boxes overlap wait in a queue until every lane has one, so that all take part in the test
 /// of distance.
 struct FindPairs {
+  /// A box that is read in two steps.
+  struct alignas(16) PaddedBox {
+    TreeBox box;
+    float padding[2];
+  };
+
   struct Scratch {
     // Each level leaves at most 31 nodes on the stack while it is gone down from the last.
     std::uint32_t stack[31 * SegmentTreeView::max_levels + 2];
     TreeSegment mine[warp_width];
-    std::uint32_t queue[2 * warp_width];
+    PaddedBox ones[warp_width];
+    std::uint32_t boxes_near[2 * warp_width];  // the two queues
+    std::uint32_t lines_near[2 * warp_width];
   };
 
   SegmentTreeView a;
@@ -83,7 +91,8 @@ struct FindPairs {
           meet_leaf(node);
         }
       }
-      test(waiting_);
+      test_lines(boxes_waiting_);
+      test_segments(lines_waiting_);
     }
 
    private:
@@ -142,65 +151,88 @@ struct FindPairs {
       const std::uint32_t lanes = over_theirs ? near_mine : near_theirs;
       const bool is_own = what_.rule.self && other == leaf_;
       // One by one, against what the lanes hold.
-      typename Warp::template PerLane<TreeBox> ones;
       typename Warp::template PerLane<TreeBox> held;
       warp_.each([&](int lane) {
-        ones[lane] = chosen(over_theirs, theirs[lane], mine_[lane]);
+        scratch_.ones[lane].box = chosen(over_theirs, theirs[lane], mine_[lane]);
         held[lane] = chosen(over_theirs, mine_[lane], theirs[lane]);
       });
+      warp_.sync();
       for (std::uint32_t rest = over_theirs ? near_theirs : near_mine; rest != 0;
            rest &= rest - 1) {
         const int one = lowest_bit(rest);
-        const TreeBox box = warp_.from(ones, one);
+        const PaddedBox box = scratch_.ones[one];
         const std::uint32_t hits = warp_.ballot([&](int lane) {
           const bool is_first = !is_own || (over_theirs ? one > lane : lane > one);
-          return (lanes & bit_of(lane)) != 0 && is_first && overlap(held[lane], box);
+          return (lanes & bit_of(lane)) != 0 && is_first && overlap(held[lane], box.box);
         });
-        if (hits != 0) {
-          wait(hits, over_theirs, one, other);
+        if (hits == 0) {
+          continue;
+        }
+        put(scratch_.boxes_near, boxes_waiting_, hits, [&](int lane) {
+          return static_cast<std::uint32_t>(over_theirs ? lane : one) << place_bits |
+                 place(other, over_theirs ? one : lane);
+        });
+        if (boxes_waiting_ >= warp_width) {
+          test_lines(warp_width);
+          take_out(scratch_.boxes_near, boxes_waiting_);
         }
       }
+      warp_.sync();
     }
 
-    /// Puts pairs into the queue, and tests as many as there are lanes, once there are so many.
-    FIBER_ON_DEVICE void wait(std::uint32_t hits, bool over_theirs, int one, std::uint32_t other) {
+    /// Puts entries of these lanes into a queue.
+    template <class Entry>
+    FIBER_ON_DEVICE void put(std::uint32_t* queue, int& waiting, std::uint32_t lanes,
+                             const Entry& entry) {
       warp_.each([&](int lane) {
-        if ((hits & bit_of(lane)) != 0) {
-          scratch_.queue[waiting_ + count_bits(hits & bits_before(lane))] =
-              static_cast<std::uint32_t>(over_theirs ? lane : one) << place_bits |
-              place(other, over_theirs ? one : lane);
+        if ((lanes & bit_of(lane)) != 0) {
+          queue[waiting + count_bits(lanes & bits_before(lane))] = entry(lane);
         }
       });
+      waiting += count_bits(lanes);
       warp_.sync();
-      waiting_ += count_bits(hits);
-      if (waiting_ < warp_width) {
-        return;
-      }
-      test(warp_width);
+    }
+
+    /// Takes a warp's worth out of a queue.
+    FIBER_ON_DEVICE void take_out(std::uint32_t* queue, int& waiting) {
       typename Warp::template PerLane<std::uint32_t> left;
       warp_.each([&](int lane) {
-        left[lane] = lane + warp_width < waiting_ ? scratch_.queue[lane + warp_width] : 0U;
+        left[lane] = lane + warp_width < waiting ? queue[lane + warp_width] : 0U;
       });
       warp_.sync();
-      waiting_ -= warp_width;
+      waiting -= warp_width;
       warp_.each([&](int lane) {
-        if (lane < waiting_) {
-          scratch_.queue[lane] = left[lane];
+        if (lane < waiting) {
+          queue[lane] = left[lane];
         }
       });
       warp_.sync();
     }
 
-    /// Writes those of the first pairs in the queue down that may be near.
-    FIBER_ON_DEVICE void test(int size) {
+    /// Lets those of the first pairs wait further whose lines are near.
+    FIBER_ON_DEVICE void test_lines(int size) {
       const std::uint32_t near = warp_.ballot([&](int lane) {
         if (lane >= size) {
           return false;
         }
-        const std::uint32_t entry = scratch_.queue[lane];
-        const TreeSegment& mine = scratch_.mine[entry >> place_bits];
-        const TreeSegment& other = what_.b.segments[entry & place_mask];
-        return is_pair(mine.point, other.point) && are_near(mine, other);
+        const Pair pair(*this, scratch_.boxes_near[lane]);
+        return is_pair(pair.mine.point, pair.other.point) && pair.lines_are_near();
+      });
+      if (near == 0) {
+        return;
+      }
+      put(scratch_.lines_near, lines_waiting_, near,
+          [&](int lane) { return scratch_.boxes_near[lane]; });
+      if (lines_waiting_ >= warp_width) {
+        test_segments(warp_width);
+        take_out(scratch_.lines_near, lines_waiting_);
+      }
+    }
+
+    /// Writes those of the first pairs down that may be near.
+    FIBER_ON_DEVICE void test_segments(int size) {
+      const std::uint32_t near = warp_.ballot([&](int lane) {
+        return lane < size && Pair(*this, scratch_.lines_near[lane]).segments_are_near();
       });
       if (near == 0) {
         return;
@@ -211,9 +243,8 @@ struct FindPairs {
         const std::uint64_t to =
             at + static_cast<std::uint64_t>(count_bits(near & bits_before(lane)));
         if ((near & bit_of(lane)) != 0 && to < what_.capacity) {
-          const std::uint32_t entry = scratch_.queue[lane];
-          what_.pairs[to] = key_of(scratch_.mine[entry >> place_bits].point,
-                                   what_.b.segments[entry & place_mask].point);
+          const Pair pair(*this, scratch_.lines_near[lane]);
+          what_.pairs[to] = key_of(pair.mine.point, pair.other.point);
         }
       });
     }
@@ -235,18 +266,35 @@ struct FindPairs {
       return is_same ? rule.same_fiber && apart > rule.neighbour_skip : rule.different_fibers;
     }
 
-    FIBER_ON_DEVICE bool are_near(const TreeSegment& x, const TreeSegment& y) const {
-      using one_lane::LaneSegments;
-      using one_lane::LaneVector;
-      const LaneVector start_x{x.start[0], x.start[1], x.start[2]};
-      const LaneVector start_y{y.start[0], y.start[1], y.start[2]};
-      const LaneSegments p = one_lane::lane_segments(start_x, {x.end[0], x.end[1], x.end[2]});
-      const LaneSegments q = one_lane::lane_segments(start_y, {y.end[0], y.end[1], y.end[2]});
-      const float reach = x.radius + y.radius + what_.rule.bound;
-      return one_lane::lines_near(p.direction, q.direction, one_lane::subtract(start_x, start_y),
-                                  reach) &&
-             one_lane::segments_near(p, q, reach);
-    }
+    /// Two segments, as a queue tells of them.
+    struct Pair {
+      const TreeSegment& mine;
+      const TreeSegment& other;
+      const float bound;
+
+      FIBER_ON_DEVICE Pair(const Search& search, std::uint32_t entry)
+          : mine(search.scratch_.mine[entry >> place_bits]),
+            other(search.what_.b.segments[entry & place_mask]),
+            bound(search.what_.rule.bound) {}
+
+      FIBER_ON_DEVICE static one_lane::LaneVector vector(const float (&values)[3]) {
+        return {values[0], values[1], values[2]};
+      }
+      FIBER_ON_DEVICE float reach() const { return mine.radius + other.radius + bound; }
+
+      FIBER_ON_DEVICE bool lines_are_near() const {
+        const one_lane::LaneVector p = vector(mine.start);
+        const one_lane::LaneVector q = vector(other.start);
+        return one_lane::lines_near(one_lane::subtract(vector(mine.end), p),
+                                    one_lane::subtract(vector(other.end), q),
+                                    one_lane::subtract(p, q), reach());
+      }
+      FIBER_ON_DEVICE bool segments_are_near() const {
+        return one_lane::segments_near(
+            one_lane::lane_segments(vector(mine.start), vector(mine.end)),
+            one_lane::lane_segments(vector(other.start), vector(other.end)), reach());
+      }
+    };
 
     const FindPairs& what_;
     Warp warp_;
@@ -254,7 +302,8 @@ struct FindPairs {
     Scratch& scratch_;
     typename Warp::template PerLane<TreeBox> mine_;
     TreeBox whole_{};
-    int waiting_ = 0;
+    int boxes_waiting_ = 0;
+    int lines_waiting_ = 0;
   };
 };
 
