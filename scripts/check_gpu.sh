@@ -56,7 +56,9 @@ step() {
   local name=$1 start status=passed
   shift
   start=$(date +%s)
-  "$@" >"$out/$name.log" 2>&1 || { status="FAILED ($?)"; failed=1; }
+  "$@" >"$out/$name.log" 2>&1 || status="FAILED ($?)"
+  ! grep -q 'Running 0 tests' "$out/$name.log" || status="FAILED: no test of this name"
+  [ "$status" = passed ] || failed=1
   echo "check_gpu.sh: $name: $status, $(($(date +%s) - start)) s"
   { echo "## $name: $status"; echo '```'; tail -n "${tail_lines:-6}" "$out/$name.log"; echo '```'; } >>"$out/report.md"
 }
@@ -74,21 +76,24 @@ run_checks() {
   step accuracy here accuracy_test --gtest_filter='*/cuda_tree'
   step concurrent here concurrent_queries_test --gtest_filter='*/cuda_tree'
   step joined here fiber_graph_test --gtest_filter='*/cuda_tree'
-  step hard_scenes here hard_scenes_test --gtest_filter='*cuda_tree*'
+  step hard_scenes here hard_scenes_test --gtest_filter='*/cuda_tree*'
   local sanitizer
   sanitizer=$(command -v compute-sanitizer || ls /usr/local/cuda/bin/compute-sanitizer 2>/dev/null || true)
   if [ -n "$sanitizer" ]; then
     for tool in memcheck racecheck; do
       step $tool "$sanitizer" --tool $tool --error-exitcode 9 "$run/lib/ld-linux-x86-64.so.2" \
         --library-path "$run/lib:/usr/local/nvidia/lib64:/usr/lib/x86_64-linux-gnu" "$run/cuda_tree_test" \
-        --gtest_filter='*TakesAnyNumber*:*AskedAgain*'
+        --gtest_filter='*TakesAnyNumber*:*AskedAgain*:DeviceProximity.Refuses*'
     done
   else
     echo "## compute-sanitizer: not found" >>"$out/report.md"
   fi
   tail_lines=4
   for scene in ${FIBER_PROXIMITY_GPU_SCENES:-soup tress_a tress_b cloth longish windy charming curly}; do
-    step "cycle_$scene" here fiber_bench cycle --scene "$scene" --engines run_tree,cuda_tree --repeats "${FIBER_PROXIMITY_GPU_FRAMES:-11}"
+    step "cycle_$scene" here fiber_bench cycle --scene "$scene" --engines run_tree,cuda_tree --threads "$(nproc)" \
+      --repeats "${FIBER_PROXIMITY_GPU_FRAMES:-11}"
+    tail_lines=2 step "device_$scene" here fiber_bench device --scene "$scene" --threads "$(nproc)" \
+      --repeats "${FIBER_PROXIMITY_GPU_FRAMES:-11}"
   done
   echo "check_gpu.sh: the report is $out/report.md"
   return $failed

@@ -12,6 +12,7 @@
 #include "fiber_proximity/geometry/segment_distance.hpp"
 #include "test/support/answers.hpp"
 #include "test/support/contacts.hpp"
+#include "test/support/cuda_tree.hpp"
 #include "test/support/engine_names.hpp"
 #include "test/support/not_finite.hpp"
 #include "test/support/random.hpp"
@@ -80,6 +81,8 @@ TEST_P(HardScenesEngineTest, GivesBruteForcesContactsToTheBit) {
 std::vector<std::string> all_engines() {
   std::vector<std::string> names = all_engine_names();
   names.insert(names.end(), {"DL-6", "DS-6", "DL-26", "DS-26", "DL-26-classic", "DS-26-classic"});
+  register_cuda_tree();
+  names.emplace_back("cuda_tree");
   return names;
 }
 
