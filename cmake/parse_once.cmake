@@ -30,7 +30,7 @@ endfunction()
 # For tests that wait for programs and nodes: -O0 takes the compiler two thirds of the time of -O1.
 function(fiber_proximity_compile_cold)
   foreach(target IN LISTS ARGN)
-    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O0>)
+    target_compile_options(${target} PRIVATE -O0)
   endforeach()
 endfunction()
 
