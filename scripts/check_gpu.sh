@@ -1,21 +1,23 @@
 #!/usr/bin/env bash
 # Builds what a check of the GPU engine needs, packs it with all that it loads, and runs it where a GPU is: tests of
 # engines, the same answers as on the processor byte by byte, compute-sanitizer, times. Writes one report.
-#   scripts/check_gpu.sh [--pack FOLDER | --run FOLDER] [--out DIR] [--verbose]
+#   scripts/check_gpu.sh [--pack FOLDER | --run FOLDER] [--only tests|times] [--out DIR] [--verbose]
 #     --pack FOLDER  build and pack only: the folder then runs on any 64-bit Linux with a GPU, with nothing installed
 #     --run FOLDER   run what lies packed there
-#     --out DIR      where the report goes (default: gpu in the build's folder)
+#     --only WHAT    of the two halves: tests, or times on the eight scenes of the paper
+#     --out DIR      where report.md and times.jsonl go (default: gpu/report in the build's folder)
 set -euo pipefail
 
-usage="usage: scripts/check_gpu.sh [--pack FOLDER | --run FOLDER] [--out DIR] [--verbose]"
+usage="usage: scripts/check_gpu.sh [--pack FOLDER | --run FOLDER] [--only tests|times] [--out DIR] [--verbose]"
 pack=
 run=
 out=
+only=
 verbose_wanted=false
 while [ $# -gt 0 ]; do
   case "$1" in
-    --pack | --run | --out)
-      [ $# -ge 2 ] || { echo "check_gpu.sh: $1 needs a folder; $usage" >&2; exit 2; }
+    --pack | --run | --out | --only)
+      [ $# -ge 2 ] || { echo "check_gpu.sh: $1 needs a value; $usage" >&2; exit 2; }
       declare "${1#--}=$2"
       shift
       ;;
@@ -25,6 +27,11 @@ while [ $# -gt 0 ]; do
   esac
   shift
 done
+
+case "$only" in
+  '' | tests | times) ;;
+  *) echo "check_gpu.sh: --only takes 'tests' or 'times', not '$only'; $usage" >&2; exit 2 ;;
+esac
 
 programs=(cuda_tree_test query_test hard_scenes_test accuracy_test contact_limit_test concurrent_queries_test
   fiber_graph_test fiber_bench)
@@ -63,12 +70,7 @@ step() {
   { echo "## $name: $status"; echo '```'; tail -n "${tail_lines:-6}" "$out/$name.log"; echo '```'; } >>"$out/report.md"
 }
 
-run_checks() {
-  mkdir -p "$out"
-  {
-    echo "# cuda_tree on a GPU"
-    echo "$(nvidia-smi --query-gpu=name,driver_version --format=csv,noheader 2>/dev/null || echo 'no nvidia-smi'), $(nproc) cores ($(sed -n 's/^model name.*: //p' /proc/cpuinfo | head -1)), $(date +%F)"
-  } >"$out/report.md"
+run_tests_there() {
   export FIBER_PROXIMITY_TEST_GPU=1
   step same_bytes env FIBER_PROXIMITY_TEST_SCENES=2000 bash -c "$(declare -f here); run='$run'; here cuda_tree_test"
   step engines here query_test --gtest_filter='*/cuda_tree'
@@ -77,24 +79,38 @@ run_checks() {
   step concurrent here concurrent_queries_test --gtest_filter='*/cuda_tree'
   step joined here fiber_graph_test --gtest_filter='*/cuda_tree'
   step hard_scenes here hard_scenes_test --gtest_filter='*/cuda_tree*'
-  local sanitizer
+  local sanitizer tool
   sanitizer=$(command -v compute-sanitizer || ls /usr/local/cuda/bin/compute-sanitizer 2>/dev/null || true)
-  if [ -n "$sanitizer" ]; then
-    for tool in memcheck racecheck; do
-      step $tool "$sanitizer" --tool $tool --error-exitcode 9 "$run/lib/ld-linux-x86-64.so.2" \
-        --library-path "$run/lib:/usr/local/nvidia/lib64:/usr/lib/x86_64-linux-gnu" "$run/cuda_tree_test" \
-        --gtest_filter='*TakesAnyNumber*:*AskedAgain*:DeviceProximity.Refuses*'
-    done
-  else
+  if [ -z "$sanitizer" ]; then
     echo "## compute-sanitizer: not found" >>"$out/report.md"
+    return
   fi
-  tail_lines=4
-  for scene in ${FIBER_PROXIMITY_GPU_SCENES:-soup tress_a tress_b cloth longish windy charming curly}; do
-    step "cycle_$scene" here fiber_bench cycle --scene "$scene" --engines run_tree,cuda_tree --threads "$(nproc)" \
-      --repeats "${FIBER_PROXIMITY_GPU_FRAMES:-11}"
-    tail_lines=2 step "device_$scene" here fiber_bench device --scene "$scene" --threads "$(nproc)" \
-      --repeats "${FIBER_PROXIMITY_GPU_FRAMES:-11}"
+  for tool in memcheck racecheck; do
+    step $tool "$sanitizer" --tool $tool --error-exitcode 9 "$run/lib/ld-linux-x86-64.so.2" \
+      --library-path "$run/lib:/usr/local/nvidia/lib64:/usr/lib/x86_64-linux-gnu" "$run/cuda_tree_test" \
+      --gtest_filter='*TakesAnyNumber*:*AskedAgain*:DeviceProximity.Refuses*'
   done
+}
+
+measure_there() {
+  local scene frames=${FIBER_PROXIMITY_GPU_FRAMES:-11}
+  : >"$out/times.jsonl"
+  for scene in soup tress_a tress_b cloth longish windy charming curly; do
+    step "cycle_$scene" here fiber_bench cycle --json --scene "$scene" --engines run_tree,cuda_tree \
+      --threads "$(nproc)" --repeats "$frames"
+    step "device_$scene" here fiber_bench device --json --scene "$scene" --threads "$(nproc)" --repeats "$frames"
+    cat "$out/cycle_$scene.log" "$out/device_$scene.log" >>"$out/times.jsonl"
+  done
+}
+
+run_checks() {
+  mkdir -p "$out"
+  {
+    echo "# cuda_tree on a GPU"
+    echo "$(nvidia-smi --query-gpu=name,driver_version --format=csv,noheader 2>/dev/null || echo 'no nvidia-smi'), $(nproc) cores ($(sed -n 's/^model name.*: //p' /proc/cpuinfo | head -1)), $(date +%F)"
+  } >"$out/report.md"
+  [ "$only" = times ] || run_tests_there
+  [ "$only" = tests ] || measure_there
   echo "check_gpu.sh: the report is $out/report.md"
   return $failed
 }
