@@ -25,6 +25,7 @@ function(fiber_proximity_python_test name)
 endfunction()
 
 fiber_proximity_python_test(bad_input)
+fiber_proximity_python_test(device)
 fiber_proximity_python_test(doctests)
 fiber_proximity_python_test(fibers)
 fiber_proximity_python_test(files)

@@ -1,0 +1,96 @@
+#!/usr/bin/python3
+"""Contacts that stay on a device: here the processor in its place."""
+import unittest
+
+import numpy as np
+import support  # noqa: F401 (it finds the module)
+
+import fiber_proximity as fp
+
+
+class OnDevice:
+    """Points as one who has them on a GPU offers them."""
+
+    def __init__(self, points, **changed):
+        self.points = points
+        self.__cuda_array_interface__ = {
+            'shape': points.shape, 'typestr': points.dtype.str, 'data': (points.ctypes.data, False),
+            'version': 3, **changed}
+
+
+def walks(seed, fibers=20, points=50):
+    steps = np.random.default_rng(seed).normal(size=(fibers, points, 3)) * 0.02
+    return np.cumsum(steps, axis=1).reshape(-1, 3), np.arange(0, fibers * points + 1, points)
+
+
+class Device(unittest.TestCase):
+
+    def test_gives_the_contacts_of_run_tree(self):
+        points, offsets = walks(1)
+        proximity = fp.DeviceProximity(offsets, 0.01, device='host')
+        for kind in np.float32, np.float64:
+            of_kind = np.ascontiguousarray(points, kind)
+            proximity.update(OnDevice(of_kind))
+            found = proximity.query(margin=0.005, neighbour_skip=2)
+            arrays = found.to_host()
+            fibers = fp.Fibers(of_kind.astype(float), offsets, 0.01)
+            expected = fp.Engine(fibers).contacts(margin=0.005, neighbour_skip=2)
+            self.assertGreater(len(found), 100)
+            self.assertEqual(len(found), len(expected))
+            np.testing.assert_array_equal(arrays['a'], offsets[expected['fiber_a']] + expected['segment_a'])
+            np.testing.assert_array_equal(arrays['b'], offsets[expected['fiber_b']] + expected['segment_b'])
+            for name in 's', 't', 'distance':
+                np.testing.assert_array_equal(arrays[name], expected[name])
+
+    def test_takes_points_of_the_host(self):
+        points, offsets = walks(2)
+        proximity = fp.DeviceProximity(offsets, 0.01, device='host')
+        proximity.update(points)
+        whole = len(proximity.query())
+        own = len(proximity.query(pairing='same_fiber'))
+        self.assertEqual(own + len(proximity.query(pairing='different_fibers')), whole)
+        self.assertGreater(own, 0)
+
+    def test_contacts_are_gone_with_the_next_ones(self):
+        points, offsets = walks(3)
+        proximity = fp.DeviceProximity(offsets, 0.01, device='host')
+        proximity.update(points)
+        first = proximity.query()
+        proximity.query()
+        with self.assertRaisesRegex(RuntimeError, 'these contacts are gone'):
+            first.to_host()
+
+    def test_refuses_what_is_not_allowed(self):
+        points, offsets = walks(4)
+        proximity = fp.DeviceProximity(offsets, 0.01, device='host')
+        with self.assertRaisesRegex(ValueError, r'shape \(1000, 3\)'):
+            proximity.update(OnDevice(points[:-1]))
+        with self.assertRaisesRegex(TypeError, "float32 or float64, they are '<i8'"):
+            proximity.update(OnDevice(points.astype(np.int64)))
+        with self.assertRaisesRegex(ValueError, 'C order'):
+            proximity.update(OnDevice(points, strides=(8, 8000)))
+        with self.assertRaisesRegex(TypeError, 'masked'):
+            proximity.update(OnDevice(points, mask=points))
+        bad = points.copy()
+        bad[3, 1] = np.nan
+        with self.assertRaisesRegex(ValueError, '1 coordinates on the device are not finite'):
+            proximity.update(OnDevice(bad))
+        proximity.update(points)
+        with self.assertRaisesRegex(ValueError, 'margin is inf'):
+            proximity.query(margin=np.inf)
+        with self.assertRaisesRegex(ValueError, "unknown device 'tpu', known are: gpu, host"):
+            fp.DeviceProximity(offsets, 0.01, device='tpu')
+        with self.assertRaisesRegex(AttributeError, 'on no GPU'):
+            proximity.query().a.__cuda_array_interface__  # noqa: B018 (it raises)
+
+    def test_without_a_gpu_it_says_so(self):
+        try:
+            fp.DeviceProximity([0, 2], 0.1)
+        except RuntimeError as error:
+            self.assertRegex(str(error), 'cuda_tree needs an NVIDIA GPU|cuda_tree is not in this build')
+        else:
+            self.skipTest('there is a GPU')
+
+
+if __name__ == '__main__':
+    unittest.main()
