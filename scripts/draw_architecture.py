@@ -19,7 +19,7 @@ INCLUDE = re.compile(r'^\s*#\s*include\s*"(?:src|fiber_proximity)/([^"]+)/[^/"]+
 COLOURS = {
     'fiber_proximity': '#cfe3f5', 'fiber_proximity_paper': '#e6d9f2', 'fiber_proximity_environment': '#d8efd3',
     'fiber_proximity_compare': '#f3e9c6', 'fiber_proximity_sim': '#fbdcc4', 'fiber_proximity_ros': '#f6cfd4',
-    'fiber_proximity_scenes': '#e3e6c8', 'fiber_proximity_rviz': '#d3efec', 'fiber_proximity_python': '#fff3a8', 'fiber_proximity_mpi': '#d9d2c5', 'programs': '#e4e4e4'}
+    'fiber_proximity_scenes': '#e3e6c8', 'fiber_proximity_rviz': '#d3efec', 'fiber_proximity_python': '#fff3a8', 'fiber_proximity_mpi': '#d9d2c5', 'fiber_proximity_cuda': '#cdeab0', 'programs': '#e4e4e4'}
 BOX = (150, 30)  # [px] width and height
 GAP = (22, 46)  # [px] between boxes, between rows
 SHIFT = 32  # [px] of every other row to the side: fewer arrows go behind boxes
