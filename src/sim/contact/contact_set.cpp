@@ -39,6 +39,7 @@ void ContactSet::clear() {
   was_near_.clear();
   frictions_.clear();
   impacts_.clear();
+  moved_.reset();
   for (std::vector<ContactTerm>& terms : terms_) {
     terms.clear();
   }
@@ -90,6 +91,25 @@ void ContactSet::begin(const Rods& rods, const Friction* friction, const Frictio
   }
 }
 
+namespace {
+
+/// Has slips measured against an obstacle that moves, and the slip from before turn with it.
+/// @param reference where the slip is nil
+void move_reference(const MovedShapes& moved, const Rods& rods, const ContactPoints& points,
+                    const std::optional<SurfaceLevers>& levers, Vector3d& reference,
+                    Vector3d& slip) {
+  if (const MovedShape* const shape = moved.of_object(points)) {
+    Vector3d point = point_at(rods.positions, points.edge_a, points.s);
+    if (levers) {
+      point += levers->front().arm;
+    }
+    reference += shape->displacement(point);
+    slip = shape->turned(slip);
+  }
+}
+
+}  // namespace
+
 /// Adds the friction by the normal forces at the current distances of the contacts for whose first
 /// rod is_wanted(rod) holds.
 template <class Predicate>
@@ -110,7 +130,11 @@ void ContactSet::add_friction(const Rods& rods, const Predicate& is_wanted) {
                 lever_motion(*levers, points, origins_.state->positions, origins_.state->angles);
           }
           const double max_force = friction_->coefficient() * term.pressure;
-          reference -= origins_.anchors->slip_at(points, term.normal, max_force, stick_length_);
+          Vector3d slip = origins_.anchors->slip_at(points, term.normal, max_force, stick_length_);
+          if (moved_ != nullptr) {
+            move_reference(*moved_, rods, points, levers, reference, slip);
+          }
+          reference -= slip;
           by_chunk[index].reserve(end - begin);
           by_chunk[index].push_back({points, term.normal, max_force, reference, levers});
         }
@@ -285,6 +309,9 @@ void ContactSet::find_derivatives(const Rods& rods) {
       find_terms(rods, i, found, terms_[index]);
     }
   });
+  if (moved_ != nullptr) {
+    add_terms_of_motion(rods);
+  }
 }
 
 void ContactSet::add_forces(const Rods& rods, std::vector<RodForces::ContactForce>& forces) const {

@@ -73,13 +73,17 @@ std::optional<double> NewtonSolver::solve(Rods& rods, const Problem& problem) {
   if (problem.travel_bound != nullptr) {
     bound_.begin(problem.travel_bound, static_cast<std::uint32_t>(states_.size()));
   }
+  stuck_objects_.clear();
   if (problem.contacts != nullptr) {
+    if (problem.has_moving_obstacles) {
+      problem.contacts->begin_motion(scratch_->islands, states_.size());
+    }
     problem.contacts->begin(rods, problem.friction, problem.origins, problem.step);
   }
   evaluate_energies(rods, problem);
   find_stored_energies(problem, max_kinetic_);
   const double stored_before = std::accumulate(max_kinetic_.begin(), max_kinetic_.end(), 0.0);
-  if (!predict(rods, problem)) {
+  if (!predict(rods, problem) || !move_obstacles(rods, problem)) {
     return std::nullopt;
   }
   for (std::uint32_t iteration = 0;; ++iteration) {
@@ -113,10 +117,12 @@ std::optional<double> NewtonSolver::solve(Rods& rods, const Problem& problem) {
   has_impacts_ = !impacts.empty();
   // An impact gives back no more than what the first minimum has taken.
   find_stored_energies(problem, stored_);
+  double work = obstacle_work(rods, problem);
   if (has_impacts_) {
     const std::vector<double> kinetic = kinetic_energies(rods);
     for (std::size_t i = 0; i < kinetic.size(); ++i) {
       max_kinetic_[i] += kinetic[i] - stored_[i];
+      max_kinetic_[i] += obstacle_work_.empty() ? 0.0 : obstacle_work_[i];
     }
   }
   for_each_pack(packs_.size(), Work::LITTLE, [&](std::size_t pack) { packs_[pack].finish(rods); });
@@ -125,9 +131,9 @@ std::optional<double> NewtonSolver::solve(Rods& rods, const Problem& problem) {
     return std::nullopt;
   }
   if (has_impacts_ && problem.has_start_rates) {
-    resolve_impacts(rods, problem, impacts);
+    work += resolve_impacts(rods, problem, impacts);
   }
-  return std::accumulate(stored_.begin(), stored_.end(), 0.0) - stored_before;
+  return std::accumulate(stored_.begin(), stored_.end(), 0.0) - stored_before - work;
 }
 
 /// Sums the incremental potential where the rods are, by island.
