@@ -45,7 +45,8 @@ TEST(SweepingObstacles, PlatesKeepNodesOnTheirSide) {
                                           : Shape(CylinderShape{1.0, thickness});
     Rods rods;
     for (int rod = 0; rod < 3; ++rod) {
-      rods.add(chain(random, random.in_cube(0.05), 10, 0.3), radius, rubber(radius));
+      const Vector3d middle(0.0, 0.62 * (rod - 1), 0.0);  // out of reach of each other
+      rods.add(chain(random, middle, 10, 0.3), radius, rubber(radius));
     }
     double lowest = 0.0;
     for (const Vector3d& position : rods.positions) {
@@ -62,7 +63,7 @@ TEST(SweepingObstacles, PlatesKeepNodesOnTheirSide) {
       const Isometry3d pose = stepper.moving_obstacles()->poses()[0];
       for (const Vector3d& position : stepper.rods().positions) {
         const Vector3d local = pose.inverse() * position;
-        ASSERT_TRUE(local.z() > 0.5 * thickness + 0.9 * radius || local.head<2>().norm() > 0.9)
+        ASSERT_TRUE(local.z() > 0.5 * thickness + 0.9 * radius || local.head<2>().norm() > 0.99)
             << "sweep " << repeat << ", step " << i << ": " << local.transpose();
       }
     }
@@ -131,7 +132,7 @@ TEST(SweepingObstacles, PostsTakeCablesAlong) {
     touched += stepper.rods().positions[last / 2].y() > 0.01 ? 1 : 0;
     ASSERT_FALSE(stepper.moving_obstacles()->longest_lag(stepper.time())) << "sweep " << repeat;
   }
-  expect_enough(touched, 0.5 * rounds(50));
+  expect_enough(touched, 25);
 }
 
 }  // namespace

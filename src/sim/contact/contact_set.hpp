@@ -100,6 +100,24 @@ class ContactSet {
   void add_obstacle_work(const Rods& rods, const std::vector<std::uint32_t>& islands,
                          std::vector<double>& work) const;
 
+  /// Makes each at least the longest way that is left to an obstacle that rods of the island may
+  /// reach [m].
+  void add_longest_ways(const Rods& rods, const std::vector<std::uint32_t>& islands,
+                        std::vector<double>& ways) const;
+
+  /// The derivatives of contacts' energies at the current distances along what is left of the ways
+  /// of obstacles [J].
+  struct MotionEnergy {
+    double slope = 0.0;
+    double square = 0.0;  ///< the second one
+    double mixed = 0.0;   ///< that along the displacements of rods, too, with the other sign
+  };
+
+  /// Adds them to those of the islands of their rods.
+  void add_motion_energies(const Rods& rods, const std::vector<Eigen::Vector3d>& displacements,
+                           const std::vector<std::uint32_t>& islands,
+                           std::vector<MotionEnergy>& energies) const;
+
   /// Evaluates the energy of each contact at the current distances.
   void evaluate_energies(const Rods& rods) { evaluate_energies(rods, 0); }
 
@@ -156,6 +174,8 @@ class ContactSet {
   double restitution_of(std::size_t contact) const;
   Eigen::Vector3d obstacle_velocity(const Rods& rods, const ContactPoints& points) const;
   void add_terms_of_motion(const Rods& rods);
+  template <class Function>
+  void for_each_term_of_motion(const Rods& rods, const Function& function) const;
   template <class Function>
   void for_each_obstacle_force(const Rods& rods, const Function& function) const;
   template <class Function>

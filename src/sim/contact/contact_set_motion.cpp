@@ -1,7 +1,7 @@
 // The part that obstacles which move have in contacts: in the equations of a step, its energy, its
 // impacts, and the forces on them.
 
-#include <array>
+#include <algorithm>
 #include <cassert>
 
 #include "src/sim/contact/contact_set.hpp"
@@ -11,22 +11,54 @@ namespace fiber {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// While obstacles are on their way, a step of Newton's method is that of the rods with them: the
-/// forces by which contacts would change if the obstacle went on alone act on the rods.
-void ContactSet::add_terms_of_motion(const Rods& rods) {
+/// Calls function(points, term, approach) for the terms of contacts with obstacles that are on
+/// their way, with the part of that which is left, along the normal.
+template <class Function>
+void ContactSet::for_each_term_of_motion(const Rods& rods, const Function& function) const {
   std::vector<DistanceTerm> buffer;
   for (std::size_t i = 0; i < obstacle_contacts.size(); ++i) {
     const MovedShape* const shape = moved_->of_contact(i);
-    if (shape == nullptr || shape->has_arrived()) {
-      continue;
+    if (shape != nullptr && !shape->has_arrived()) {
+      for_each_term(rods, i, buffer, [&](const ContactPoints& points, const DistanceTerm& term) {
+        const Vector3d point = point_at(rods.positions, points.edge_a, points.s);
+        function(points, term, shape->way_left(point).dot(term.normal));
+      });
     }
-    for_each_term(rods, i, buffer, [&](const ContactPoints& points, const DistanceTerm& term) {
-      const Vector3d point = point_at(rods.positions, points.edge_a, points.s);
-      const double approach = shape->way_left(point).dot(term.normal);
-      terms_[0].push_back(
-          {points, -term.curvature * approach * term.normal, Matrix3d::Zero(), 0.0, nullptr});
-    });
   }
+}
+
+/// While obstacles are on their way, a step of Newton's method is that of the rods with them: the
+/// forces by which contacts would change if the obstacle went on alone act on the rods.
+void ContactSet::add_terms_of_motion(const Rods& rods) {
+  for_each_term_of_motion(
+      rods, [&](const ContactPoints& points, const DistanceTerm& term, double approach) {
+        terms_[0].push_back(
+            {points, -term.curvature * approach * term.normal, Matrix3d::Zero(), 0.0, nullptr});
+      });
+}
+
+void ContactSet::add_longest_ways(const Rods& rods, const std::vector<std::uint32_t>& islands,
+                                  std::vector<double>& ways) const {
+  for (std::size_t i = 0; i < obstacle_contacts.size(); ++i) {
+    if (const MovedShape* const shape = moved_->of_contact(i)) {
+      const ObstacleContact& contact = obstacle_contacts[i];
+      double& way = ways[islands[contact.rod]];
+      way = std::max(way, shape->way_left(rods.positions[contact.edge]).norm());
+    }
+  }
+}
+
+void ContactSet::add_motion_energies(const Rods& rods, const std::vector<Vector3d>& displacements,
+                                     const std::vector<std::uint32_t>& islands,
+                                     std::vector<MotionEnergy>& energies) const {
+  for_each_term_of_motion(
+      rods, [&](const ContactPoints& points, const DistanceTerm& term, double approach) {
+        const Vector3d of_rod = point_at(displacements, points.edge_a, points.s);
+        MotionEnergy& energy = energies[islands[points.rod_a]];
+        energy.slope -= term.slope * approach;
+        energy.square += term.curvature * approach * approach;
+        energy.mixed += term.curvature * approach * of_rod.dot(term.normal);
+      });
 }
 
 /// That of the obstacle where it touches, in the mean over the step; zero of one that stands still.

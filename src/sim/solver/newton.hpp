@@ -121,6 +121,9 @@ class NewtonSolver {
   double resolve_impacts(Rods& rods, const Problem& problem, const std::vector<Impact>& impacts);
   bool predict(Rods& rods, const Problem& problem);
   bool move_obstacles(Rods& rods, const Problem& problem);
+  void begin_drives(const Rods& rods, const Problem& problem);
+  void raise_drives(const Rods& rods, const Problem& problem);
+  void keep_stuck(const MovedShapes& moved);
   void move_with_obstacles(Rods& rods, const Problem& problem);
   double obstacle_work(const Rods& rods, const Problem& problem);
   void assemble(Rods& rods, const Problem& problem);
@@ -148,6 +151,7 @@ class NewtonSolver {
   bool has_impacts_ = false;
   std::vector<std::uint32_t> stuck_objects_;
   double stuck_progress_ = 1.0;
+  std::vector<double> drives_;         // of obstacles, by island [J]
   std::vector<double> obstacle_work_;  // in the solve, by island [J]
   std::vector<double> stored_;         // energy at the end of the solve, by island [J]
   std::vector<double> max_kinetic_;    // energy after impacts, by island [J]
