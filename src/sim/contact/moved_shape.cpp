@@ -69,7 +69,12 @@ MovedShape::MovedShape(const ObstacleShape& source)
       first_(source.moving->motion->start * source.moving->in_object),
       last_(nearest_alike(*source.shape, first_,
                           source.moving->motion->end * source.moving->in_object)),
-      path_(first_, last_) {
+      path_(first_, last_),
+      turn_(Vector3d::Zero()) {
+  if (path_.turns()) {
+    const Eigen::AngleAxisd turn(Eigen::Matrix3d(last_.linear() * first_.linear().transpose()));
+    turn_ = turn.angle() * turn.axis();
+  }
   go_to(path_.moves() ? 0.0 : 1.0);
 }
 

@@ -48,9 +48,9 @@ class MovedShape {
                                  const std::array<Eigen::Vector3d, 2>& displacements,
                                  double share) const;
 
-  /// By how much a point that moves with the shape will still move [m].
+  /// By how much a point that moves with the shape would still move at the rate of now [m].
   Eigen::Vector3d way_left(const Eigen::Vector3d& point) const {
-    return last_ * (now_.to_shape * point) - point;
+    return (1.0 - progress_) * (path_.way() + turn_.cross(point - now_.pose.translation()));
   }
 
   /// By how much the point of the object that is here has moved since the step began, when it ends.
@@ -82,7 +82,8 @@ class MovedShape {
   ObstacleShape now_;
   Eigen::Isometry3d first_;
   Eigen::Isometry3d last_;
-  ObjectPath path_;  // from the first to the last
+  ObjectPath path_;       // from the first to the last
+  Eigen::Vector3d turn_;  // along it, about this axis by its length [rad]
   double progress_ = 0.0;
 };
 
