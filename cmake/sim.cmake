@@ -45,6 +45,9 @@ add_library(fiber_proximity_sim SHARED
   src/sim/solver/stage_solver.cpp
   src/sim/stepper.cpp
 )
+# Compiled apart: beside it the compiler would inline less of what scenes without it run through.
+set_source_files_properties(src/sim/contact/moved_shape.cpp src/sim/contact/moved_shapes.cpp
+  PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 target_link_libraries(fiber_proximity_sim
   PUBLIC fiber_proximity_environment PRIVATE TBB::tbb hwy::hwy fiber_proximity_options)
 fiber_proximity_parse_once(fiber_proximity_sim ${core_headers})
@@ -63,6 +66,7 @@ add_library(sim_scene OBJECT
   src/sim/scene/loads.cpp
   src/sim/scene/named_nodes.cpp
   src/sim/scene/natural_curvature.cpp
+  src/sim/scene/obstacle_motion.cpp
   src/sim/scene/prediction.cpp
   src/sim/scene/reach.cpp
   src/sim/scene/real_time.cpp

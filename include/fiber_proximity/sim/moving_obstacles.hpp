@@ -60,6 +60,10 @@ class ObstacleMotions {
   /// @throws std::invalid_argument if there is no such one
   void redirect(std::uint32_t obstacle, std::function<Eigen::Isometry3d(double time)> placement);
 
+  /// Puts one somewhere, whatever is between: for one that was nowhere yet.
+  /// @throws std::invalid_argument if there is no such one
+  void place(std::uint32_t obstacle, const Eigen::Isometry3d& pose);
+
   /// Takes where the objects of another simulation are, which are the same.
   void take_state(const ObstacleMotions& other) { poses_ = other.poses_; }
 
@@ -85,6 +89,8 @@ class ObstacleMotions {
   const std::vector<ObstacleMotion>& motions() const { return motions_; }
 
  private:
+  void require(std::uint32_t obstacle) const;
+
   std::vector<MovingObstacle> obstacles_;
   std::uint32_t first_index_;
   double begin_time_ = 0.0;

@@ -30,6 +30,7 @@ void ContactSet::for_each_term_of_motion(const Rods& rods, const Function& funct
 /// While obstacles are on their way, a step of Newton's method is that of the rods with them: the
 /// forces by which contacts would change if the obstacle went on alone act on the rods.
 void ContactSet::add_terms_of_motion(const Rods& rods) {
+  std::vector<ContactTerm> terms;
   for_each_term_of_motion(
       rods, [&](const ContactPoints& points, const DistanceTerm& term, double approach) {
         terms_[0].push_back(

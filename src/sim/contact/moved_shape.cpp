@@ -84,6 +84,28 @@ void MovedShape::go_to(double progress) {
   now_.to_shape = now_.pose.inverse(Eigen::Isometry);
 }
 
+Vector3d MovedShape::way_left(const Vector3d& point) const {
+  return (1.0 - progress_) * (path_.way() + turn_.cross(point - now_.pose.translation()));
+}
+
+Vector3d MovedShape::displacement(const Vector3d& point) const {
+  return displacement_since(motion().begin, point);
+}
+
+Vector3d MovedShape::displacement_in_solve(const Vector3d& point) const {
+  return displacement_since(motion().start, point);
+}
+
+Vector3d MovedShape::turned(const Vector3d& vector) const {
+  return motion().end.linear() * (motion().begin.linear().transpose() * vector);
+}
+
+Vector3d MovedShape::displacement_since(const Isometry3d& pose, const Vector3d& point) const {
+  const Isometry3d& here = has_arrived() ? motion().end : motion().start;
+  const Vector3d in_object = here.inverse(Eigen::Isometry) * point;
+  return motion().end * in_object - pose * in_object;
+}
+
 MovedShape::RelativeMotion MovedShape::relative_motion(const std::array<Vector3d, 2>& ends,
                                                        const std::array<Vector3d, 2>& displacements,
                                                        double share) const {

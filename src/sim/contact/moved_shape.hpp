@@ -49,35 +49,23 @@ class MovedShape {
                                  double share) const;
 
   /// By how much a point that moves with the shape would still move at the rate of now [m].
-  Eigen::Vector3d way_left(const Eigen::Vector3d& point) const {
-    return (1.0 - progress_) * (path_.way() + turn_.cross(point - now_.pose.translation()));
-  }
+  Eigen::Vector3d way_left(const Eigen::Vector3d& point) const;
 
   /// By how much the point of the object that is here has moved since the step began, when it ends.
   /// The shape must be where it starts or ends.
-  Eigen::Vector3d displacement(const Eigen::Vector3d& point) const {
-    return displacement_since(motion().begin, point);
-  }
+  Eigen::Vector3d displacement(const Eigen::Vector3d& point) const;
 
   /// The same since the solve began.
-  Eigen::Vector3d displacement_in_solve(const Eigen::Vector3d& point) const {
-    return displacement_since(motion().start, point);
-  }
+  Eigen::Vector3d displacement_in_solve(const Eigen::Vector3d& point) const;
 
   /// A vector that is fixed to the object, turned as the object has turned since the step began.
-  Eigen::Vector3d turned(const Eigen::Vector3d& vector) const {
-    return motion().end.linear() * (motion().begin.linear().transpose() * vector);
-  }
+  Eigen::Vector3d turned(const Eigen::Vector3d& vector) const;
 
   const ObstacleMotion& motion() const { return *now_.moving->motion; }
 
  private:
   Eigen::Vector3d displacement_since(const Eigen::Isometry3d& pose,
-                                     const Eigen::Vector3d& point) const {
-    const Eigen::Isometry3d& here = has_arrived() ? motion().end : motion().start;
-    const Eigen::Vector3d in_object = here.inverse(Eigen::Isometry) * point;
-    return motion().end * in_object - pose * in_object;
-  }
+                                     const Eigen::Vector3d& point) const;
 
   ObstacleShape now_;
   Eigen::Isometry3d first_;

@@ -63,12 +63,21 @@ std::optional<ObstacleLag> ObstacleMotions::longest_lag(double time) const {
   return longest;
 }
 
-void ObstacleMotions::redirect(std::uint32_t obstacle,
-                               std::function<Isometry3d(double time)> placement) {
+void ObstacleMotions::require(std::uint32_t obstacle) const {
   if (obstacle >= obstacles_.size()) {
     throw std::invalid_argument("there is no moving obstacle " + std::to_string(obstacle) +
                                 ", there are " + std::to_string(obstacles_.size()));
   }
+}
+
+void ObstacleMotions::place(std::uint32_t obstacle, const Isometry3d& pose) {
+  require(obstacle);
+  poses_[obstacle] = pose;
+}
+
+void ObstacleMotions::redirect(std::uint32_t obstacle,
+                               std::function<Isometry3d(double time)> placement) {
+  require(obstacle);
   obstacles_[obstacle].placement = std::move(placement);
 }
 
