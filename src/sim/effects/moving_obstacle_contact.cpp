@@ -105,7 +105,10 @@ class MovingObstacleContact::Finder {
 
   void add(const ObstacleShape& shape, std::uint32_t rod, std::uint32_t edge,
            ObstacleContact::Part part, const Vector3d& p0, const Vector3d& p1, double within) {
-    const double radius = rods_.radii[rod];
+    using Part = ObstacleContact::Part;
+    const std::uint32_t node = part == Part::LAST_NODE ? edge + 1 : edge;
+    const double radius =
+        part == Part::EDGE ? rods_.edge_radius(rod, edge) : rods_.node_radius(rod, node);
     const double stiffness = options_.stiffness > 0.0
                                  ? options_.stiffness
                                  : material_contact_stiffness(rods_.sections[rod], radius);
