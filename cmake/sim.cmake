@@ -3,6 +3,7 @@
 add_library(fiber_proximity_sim SHARED
   src/sim/contact/contact_neighbours.cpp
   src/sim/contact/contact_set.cpp
+  src/sim/contact/contact_set_forces.cpp
   src/sim/contact/contact_set_motion.cpp
   src/sim/contact/friction_anchors.cpp
   src/sim/contact/impact.cpp
@@ -40,6 +41,7 @@ add_library(fiber_proximity_sim SHARED
   src/sim/solver/newton_impacts.cpp
   src/sim/solver/newton_obstacles.cpp
   src/sim/solver/stage_adaption.cpp
+  src/sim/solver/stage_forces.cpp
   src/sim/solver/stage_joints.cpp
   src/sim/solver/stage_obstacles.cpp
   src/sim/solver/stage_solver.cpp

@@ -198,6 +198,14 @@ std::shared_ptr<ObstacleMotions> make_obstacle_motions(const SimDescription& des
       std::move(obstacles), static_cast<std::uint32_t>(description.environment->objects().size()));
 }
 
+void copy_obstacle_frames(const SimScene& scene, SimScene& copy) {
+  for (const FollowedObstacle& followed : scene.obstacle_frames) {
+    const auto own = std::make_shared<const ObstaclePath>(*followed.path);
+    copy.stepper->moving_obstacles()->redirect(followed.obstacle,
+                                               [own](double time) { return pose_at(*own, time); });
+  }
+}
+
 std::shared_ptr<const Environment> environment_at_start(const SimDescription& scene) {
   if (scene.moving_obstacles.empty()) {
     return scene.environment;

@@ -23,6 +23,9 @@ SimMovingObstacle read_obstacle_motion(const SceneObstacle& obstacle);
 std::shared_ptr<ObstacleMotions> make_obstacle_motions(const SimDescription& description,
                                                        SimScene& scene);
 
+/// Has the obstacles of a copy go on along what is known of their frames of tf now.
+void copy_obstacle_frames(const SimScene& scene, SimScene& copy);
+
 /// All obstacles as the scene begins, those that move behind the others; without those that follow
 /// frames of tf, which are nowhere yet.
 std::shared_ptr<const Environment> environment_at_start(const SimDescription& scene);

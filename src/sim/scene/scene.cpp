@@ -341,11 +341,7 @@ SimScene copy_sim_scene(const SimDescription& description, const SimScene& scene
     copy.attachment->redirect(hold, [own](double time) { return placement_at(*own, time); });
     copy.paths.emplace(hold, own);
   }
-  for (const FollowedObstacle& followed : scene.obstacle_frames) {
-    const auto own = std::make_shared<const ObstaclePath>(*followed.path);
-    copy.stepper->moving_obstacles()->redirect(followed.obstacle,
-                                               [own](double time) { return pose_at(*own, time); });
-  }
+  copy_obstacle_frames(scene, copy);
   return copy;
 }
 

@@ -110,19 +110,16 @@ std::optional<double> NewtonSolver::solve(Rods& rods, const Problem& problem) {
       states_[i].is_active = states_[i].is_active && !accepted.has_failed;
     }
   }
-  std::vector<Impact> impacts;
-  if (problem.contacts != nullptr) {
-    impacts = problem.contacts->find_impacts(rods);
-  }
+  const std::vector<Impact> impacts =
+      problem.contacts != nullptr ? problem.contacts->find_impacts(rods) : std::vector<Impact>{};
   has_impacts_ = !impacts.empty();
   // An impact gives back no more than what the first minimum has taken.
   find_stored_energies(problem, stored_);
-  double work = obstacle_work(rods, problem);
+  double work = obstacle_work(rods, problem);  // which may be given back as well
   if (has_impacts_) {
     const std::vector<double> kinetic = kinetic_energies(rods);
     for (std::size_t i = 0; i < kinetic.size(); ++i) {
       max_kinetic_[i] += kinetic[i] - stored_[i];
-      max_kinetic_[i] += obstacle_work_.empty() ? 0.0 : obstacle_work_[i];
     }
   }
   for_each_pack(packs_.size(), Work::LITTLE, [&](std::size_t pack) { packs_[pack].finish(rods); });

@@ -146,7 +146,7 @@ void NewtonSolver::move_with_obstacles(Rods& rods, const Problem& problem) {
   bound_.advance(trial_shares_);
 }
 
-/// The work of moving obstacles in the solve, that of each island for itself as well [J].
+/// The work of moving obstacles in the solve [J]: that is energy which impacts may give back.
 double NewtonSolver::obstacle_work(const Rods& rods, const Problem& problem) {
   obstacle_work_.clear();
   if (problem.contacts == nullptr || problem.contacts->moved_shapes() == nullptr) {
@@ -154,6 +154,9 @@ double NewtonSolver::obstacle_work(const Rods& rods, const Problem& problem) {
   }
   obstacle_work_.assign(states_.size(), 0.0);
   problem.contacts->add_obstacle_work(rods, scratch_->islands, obstacle_work_);
+  for (std::size_t i = 0; i < obstacle_work_.size(); ++i) {
+    max_kinetic_[i] += obstacle_work_[i];
+  }
   return std::accumulate(obstacle_work_.begin(), obstacle_work_.end(), 0.0);
 }
 
