@@ -14,16 +14,16 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-constexpr double radius = 0.002;
+constexpr double pushed_radius = 0.002;
 
-Rods lying_rod(std::uint32_t edges = 20) {
+Rods pushed_rod(std::uint32_t edges = 20) {
   Rods rods;
-  rods.add(straight({0.0, -0.2, 0.0}, {0.0, 0.2, 0.0}, static_cast<int>(edges)), radius,
-           rubber(radius));
+  rods.add(straight({0.0, -0.2, 0.0}, {0.0, 0.2, 0.0}, static_cast<int>(edges)), pushed_radius,
+           rubber(pushed_radius));
   return rods;
 }
 
-StepperOptions balanced() {
+StepperOptions fully_balanced() {
   StepperOptions options;
   options.residual = 1e-7;
   options.max_iterations = 1000;
@@ -31,19 +31,19 @@ StepperOptions balanced() {
   return options;
 }
 
-const BoxShape box{Vector3d(0.1, 0.3, 0.1)};
+const BoxShape pusher{Vector3d(0.1, 0.3, 0.1)};
 
 Vector3d force_on_mover(const Stepper& stepper) { return stepper.forces().obstacles.at(0).force; }
 
 TEST(MovingObstacles, AMovingBoxTakesARodAlong) {
-  Stepper stepper(lying_rod(), elastic(), balanced(),
-                  contacts_with_moving({going(box, {-0.06, 0.0, 0.0}, {2.0, 0.0, 0.0})}));
+  Stepper stepper(pushed_rod(), elastic(), fully_balanced(),
+                  contacts_with_moving({going(pusher, {-0.06, 0.0, 0.0}, {2.0, 0.0, 0.0})}));
   for (int i = 0; i < 60; ++i) {
     stepper.step(1.0 / 240.0);
   }
   const double face = -0.06 + 0.05 + 2.0 * stepper.time();
   for (std::size_t i = 3; i < 18; ++i) {
-    EXPECT_GT(stepper.rods().positions[i].x(), face + 0.94 * radius);
+    EXPECT_GT(stepper.rods().positions[i].x(), face + 0.94 * pushed_radius);
   }
   EXPECT_GT(momentum_of(stepper.rods()).x(), 0.0);
 }
@@ -51,11 +51,12 @@ TEST(MovingObstacles, AMovingBoxTakesARodAlong) {
 /// Of both friction and normal forces, and of the impact.
 TEST(MovingObstacles, WhatABoxFeelsIsTheMomentumOfTheRods) {
   for (const auto integrator : {Integrator::IMPLICIT_EULER, Integrator::BDF2}) {
-    StepperOptions options = balanced();
+    StepperOptions options = fully_balanced();
     options.integrator = integrator;
     const bool is_euler = integrator == Integrator::IMPLICIT_EULER;
-    Stepper stepper(lying_rod(), elastic(), options,
-                    contacts_with_moving({going(box, {-0.06, 0.03, 0.0}, {2.0, 0.5, 0.3})}, 0.3));
+    Stepper stepper(
+        pushed_rod(), elastic(), options,
+        contacts_with_moving({going(pusher, {-0.06, 0.03, 0.0}, {2.0, 0.5, 0.3})}, 0.3));
     const double step = 1.0 / 240.0;
     Vector3d impulse = Vector3d::Zero();
     double largest = 0.0;
@@ -77,8 +78,8 @@ TEST(MovingObstacles, WhatABoxFeelsIsTheMomentumOfTheRods) {
 
 /// By a step of implicit Euler forces act where it ends.
 TEST(MovingObstacles, TheMomentOnABoxTurnsTheRodsTheOtherWay) {
-  Stepper stepper(lying_rod(), elastic(), balanced(),
-                  contacts_with_moving({going(box, {-0.06, 0.1, 0.01}, {2.0, 0.0, 0.3})}, 0.3));
+  Stepper stepper(pushed_rod(), elastic(), fully_balanced(),
+                  contacts_with_moving({going(pusher, {-0.06, 0.1, 0.01}, {2.0, 0.0, 0.3})}, 0.3));
   const double step = 1.0 / 240.0;
   double largest = 0.0;
   for (int i = 0; i < 48; ++i) {
@@ -106,14 +107,14 @@ TEST(MovingObstacles, MotionIsRelative) {
   for (const std::optional<double> friction :
        {std::optional<double>(), std::optional<double>(0.4)}) {
     const Vector3d velocity(1.5, 0.4, 0.2);
-    Rods flying = lying_rod();
+    Rods flying = pushed_rod();
     for (Vector3d& each : flying.velocities) {
       each = -velocity;
     }
-    Stepper still(flying, elastic(), balanced(),
-                  contacts_with(environment_of(box, at_place({-0.06, 0.02, 0.0})), friction));
-    Stepper moving(lying_rod(), elastic(), balanced(),
-                   contacts_with_moving({going(box, {-0.06, 0.02, 0.0}, velocity)}, friction));
+    Stepper still(flying, elastic(), fully_balanced(),
+                  contacts_with(environment_of(pusher, at_place({-0.06, 0.02, 0.0})), friction));
+    Stepper moving(pushed_rod(), elastic(), fully_balanced(),
+                   contacts_with_moving({going(pusher, {-0.06, 0.02, 0.0}, velocity)}, friction));
     std::uint32_t impacts = 0;
     for (int i = 0; i < 60; ++i) {
       still.step(1.0 / 240.0);
@@ -134,15 +135,16 @@ TEST(MovingObstacles, MotionIsRelative) {
 
 TEST(MovingObstacles, OneThatRestsIsAsOneThatStands) {
   const auto fall = [](std::unique_ptr<Contacts> contacts) {
-    Stepper stepper(lying_rod(), elastic(standard_gravity), balanced(), std::move(contacts));
+    Stepper stepper(pushed_rod(), elastic(standard_gravity), fully_balanced(), std::move(contacts));
     for (int i = 0; i < 60; ++i) {
       stepper.step(1.0 / 240.0);
     }
     return stepper.rods();
   };
-  const Rods standing = fall(contacts_with(environment_of(box, at_place({0.0, 0.05, -0.06})), 0.3));
+  const Rods standing =
+      fall(contacts_with(environment_of(pusher, at_place({0.0, 0.05, -0.06})), 0.3));
   const Rods resting =
-      fall(contacts_with_moving({going(box, {0.0, 0.05, -0.06}, Vector3d::Zero())}, 0.3));
+      fall(contacts_with_moving({going(pusher, {0.0, 0.05, -0.06}, Vector3d::Zero())}, 0.3));
   for (std::size_t i = 0; i < standing.positions.size(); ++i) {
     EXPECT_LT((standing.positions[i] - resting.positions[i]).norm(), 1e-9);
   }
@@ -150,8 +152,8 @@ TEST(MovingObstacles, OneThatRestsIsAsOneThatStands) {
 
 /// A step of any length, as nothing is elastic: energies of obstacles' work are none of the step.
 TEST(MovingObstacles, TheirWorkIsNoGainOfEnergy) {
-  Stepper stepper(lying_rod(), elastic(), balanced(),
-                  contacts_with_moving({going(box, {-0.06, 0.0, 0.0}, {3.0, 0.0, 0.0})}, 0.3));
+  Stepper stepper(pushed_rod(), elastic(), fully_balanced(),
+                  contacts_with_moving({going(pusher, {-0.06, 0.0, 0.0}, {3.0, 0.0, 0.0})}, 0.3));
   for (int i = 0; i < 60; ++i) {
     stepper.step(1.0 / 240.0);
     EXPECT_LT(stepper.report().energy_gain, 1e-9 + 1e-6 * stepper.energy()) << i;
@@ -161,14 +163,15 @@ TEST(MovingObstacles, TheirWorkIsNoGainOfEnergy) {
 /// A rod on a turntable that friction takes along, faster and faster.
 TEST(MovingObstacles, FrictionHoldsWhatLiesOnWhatTurns) {
   Rods rods;
-  rods.add(straight({0.1, -0.02, 1.001 * radius}, {0.1, 0.02, 1.001 * radius}, 4), radius,
-           rubber(radius));
+  rods.add(straight({0.1, -0.02, 1.001 * pushed_radius}, {0.1, 0.02, 1.001 * pushed_radius}, 4),
+           pushed_radius, rubber(pushed_radius));
   const auto angle = [](double time) { return 0.5 * time * time; };
   const auto table = moving("table", CylinderShape{0.2, 0.02}, [&](double time) {
     return Isometry3d(Eigen::AngleAxisd(angle(time), Vector3d::UnitZ()) *
                       Eigen::Translation3d(0.0, 0.0, -0.01));
   });
-  Stepper stepper(rods, elastic(standard_gravity), balanced(), contacts_with_moving({table}, 0.8));
+  Stepper stepper(rods, elastic(standard_gravity), fully_balanced(),
+                  contacts_with_moving({table}, 0.8));
   for (int i = 0; i < 480; ++i) {
     stepper.step(1.0 / 240.0);
   }
@@ -181,10 +184,10 @@ TEST(MovingObstacles, FrictionHoldsWhatLiesOnWhatTurns) {
 
 /// Two jaws that would close on less than the rod's thickness.
 TEST(MovingObstacles, AGripperThatCannotCloseStaysBehind) {
-  Rods rods = lying_rod();
+  Rods rods = pushed_rod();
   const auto jaw = [](const char* name, double side) {
     return moving(name, BoxShape{Vector3d(0.02, 0.05, 0.02)}, [side](double time) {
-      const double gap = std::max(0.5 * radius, 0.01 - 0.02 * time);
+      const double gap = std::max(0.5 * pushed_radius, 0.01 - 0.02 * time);
       return at_place({side * (0.01 + gap), 0.0, 0.0});
     });
   };
@@ -197,21 +200,21 @@ TEST(MovingObstacles, AGripperThatCannotCloseStaysBehind) {
     const double right = stepper.moving_obstacles()->poses()[1].translation().x() - 0.01;
     for (const Vector3d& position : stepper.rods().positions) {
       if (std::abs(position.y()) < 0.025) {
-        ASSERT_GT(position.x(), left + 0.9 * radius) << i;
-        ASSERT_LT(position.x(), right - 0.9 * radius) << i;
+        ASSERT_GT(position.x(), left + 0.9 * pushed_radius) << i;
+        ASSERT_LT(position.x(), right - 0.9 * pushed_radius) << i;
       }
     }
   }
   const auto lag = stepper.moving_obstacles()->longest_lag(stepper.time());
   ASSERT_TRUE(lag.has_value());
-  EXPECT_NEAR(lag->distance, 0.45 * radius, 0.06 * radius);
+  EXPECT_NEAR(lag->distance, 0.45 * pushed_radius, 0.06 * pushed_radius);
 }
 
 TEST(MovingObstacles, AStateIsTakenWithWhereTheyAre) {
   const auto make = [] {
     return std::make_unique<Stepper>(
-        lying_rod(), elastic(), balanced(),
-        contacts_with_moving({going(box, {-0.06, 0.0, 0.0}, {2.0, 0.0, 0.0})}, 0.3));
+        pushed_rod(), elastic(), fully_balanced(),
+        contacts_with_moving({going(pusher, {-0.06, 0.0, 0.0}, {2.0, 0.0, 0.0})}, 0.3));
   };
   const auto first = make();
   for (int i = 0; i < 12; ++i) {
