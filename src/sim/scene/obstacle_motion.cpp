@@ -20,6 +20,7 @@ namespace {
 
 constexpr double max_obstacle_speed = 1000.0;  // [m/s]
 constexpr double unit_tolerance = 1e-3;
+constexpr double far_away = 1e6;  // [m]
 
 Quaterniond read_orientation(const YamlField& field) {
   const std::vector<double> numbers = field.numbers(4);
@@ -189,7 +190,10 @@ std::shared_ptr<ObstacleMotions> make_obstacle_motions(const SimDescription& des
           {obstacle.object, [obstacle](double time) { return obstacle.pose_at(time); }});
       continue;
     }
-    const auto path = std::make_shared<ObstaclePath>(ObstaclePath{{0.0, obstacle.object.pose}});
+    // Until its frame is known it is out of everybody's way.
+    Isometry3d nowhere = obstacle.object.pose;
+    nowhere.translation() += Vector3d::Constant(far_away);
+    const auto path = std::make_shared<ObstaclePath>(ObstaclePath{{0.0, nowhere}});
     scene.obstacle_frames.push_back({*obstacle.frame, static_cast<std::uint32_t>(obstacles.size()),
                                      obstacle.place, obstacle.object.pose, path});
     obstacles.push_back({obstacle.object, [path](double time) { return pose_at(*path, time); }});
