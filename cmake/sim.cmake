@@ -3,11 +3,15 @@
 add_library(fiber_proximity_sim SHARED
   src/sim/contact/contact_neighbours.cpp
   src/sim/contact/contact_set.cpp
+  src/sim/contact/contact_set_forces.cpp
+  src/sim/contact/contact_set_motion.cpp
   src/sim/contact/friction_anchors.cpp
   src/sim/contact/impact.cpp
   src/sim/contact/surface_lever.cpp
   src/sim/contact/contact_set_step.cpp
   src/sim/contact/edge_contact.cpp
+  src/sim/contact/moved_shape.cpp
+  src/sim/contact/moved_shapes.cpp
   src/sim/contact/obstacle_contact.cpp
   src/sim/effects/attachment.cpp
   src/sim/effects/bend.cpp
@@ -16,6 +20,8 @@ add_library(fiber_proximity_sim SHARED
   src/sim/effects/drag.cpp
   src/sim/effects/gravity.cpp
   src/sim/effects/loads.cpp
+  src/sim/effects/moving_obstacles.cpp
+  src/sim/effects/moving_obstacle_contact.cpp
   src/sim/effects/natural_bend.cpp
   src/sim/effects/section_damping.cpp
   src/sim/effects/stretch.cpp
@@ -33,11 +39,17 @@ add_library(fiber_proximity_sim SHARED
   src/sim/solver/newton_convergence.cpp
   src/sim/solver/newton_correction.cpp
   src/sim/solver/newton_impacts.cpp
+  src/sim/solver/newton_obstacles.cpp
   src/sim/solver/stage_adaption.cpp
+  src/sim/solver/stage_forces.cpp
   src/sim/solver/stage_joints.cpp
+  src/sim/solver/stage_obstacles.cpp
   src/sim/solver/stage_solver.cpp
   src/sim/stepper.cpp
 )
+# Compiled apart: beside it the compiler would inline less of what scenes without it run through.
+set_source_files_properties(src/sim/contact/moved_shape.cpp src/sim/contact/moved_shapes.cpp
+  PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 target_link_libraries(fiber_proximity_sim
   PUBLIC fiber_proximity_environment PRIVATE TBB::tbb hwy::hwy fiber_proximity_options)
 fiber_proximity_parse_once(fiber_proximity_sim ${core_headers})
@@ -56,6 +68,7 @@ add_library(sim_scene OBJECT
   src/sim/scene/loads.cpp
   src/sim/scene/named_nodes.cpp
   src/sim/scene/natural_curvature.cpp
+  src/sim/scene/obstacle_motion.cpp
   src/sim/scene/prediction.cpp
   src/sim/scene/reach.cpp
   src/sim/scene/real_time.cpp

@@ -17,6 +17,7 @@ struct Forces : OnlyShared {
   py::array holds;
   py::array joints;
   py::array loads;
+  py::array obstacles;
 };
 
 py::dtype contact_force_dtype() {
@@ -48,6 +49,17 @@ py::dtype hold_force_dtype() {
                     sizeof(Force));
 }
 
+py::dtype obstacle_force_dtype() {
+  using Force = RodForces::ObstacleForce;
+  const Force force{};
+  const auto at = [&](auto member) { return offset_of(force, member); };
+  return make_dtype({{"object", "u4", at(&Force::object)},
+                     {"point", "(3,)f8", at(&Force::point)},
+                     {"force", "(3,)f8", at(&Force::force)},
+                     {"moment", "(3,)f8", at(&Force::moment)}},
+                    sizeof(Force));
+}
+
 /// Of what exerts force and moment on nodes.
 /// @param name of the member that counts these
 template <class Force>
@@ -70,7 +82,8 @@ Forces::Forces(RodForces& forces)
       contacts(to_array(contact_force_dtype(), forces.contacts)),
       holds(to_array(hold_force_dtype(), forces.holds)),
       joints(to_array(node_force_dtype("joint", &RodForces::JointForce::joint), forces.joints)),
-      loads(to_array(node_force_dtype("load", &RodForces::LoadForce::load), forces.loads)) {}
+      loads(to_array(node_force_dtype("load", &RodForces::LoadForce::load), forces.loads)),
+      obstacles(to_array(obstacle_force_dtype(), forces.obstacles)) {}
 
 }  // namespace
 
@@ -104,7 +117,11 @@ void bind_forces(py::module& module) {
       .def_readonly("loads", &Forces::loads,
                     "(m,) with the fields load (counted from 0, those of a repeated fibre one by "
                     "one), fiber, node, point [m], force [N] on the node and moment [N m] on the "
-                    "segment after it: the share that the node has in the load.");
+                    "segment after it: the share that the node has in the load.")
+      .def_readonly("obstacles", &Forces::obstacles,
+                    "(m,) with the fields object, as `contacts` counts them, point [m], its "
+                    "origin, force [N] and moment [N m] about that: what fibres exert on each "
+                    "object that moves.");
 }
 
 }  // namespace fiber::python

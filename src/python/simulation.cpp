@@ -13,6 +13,11 @@ Simulation::Simulation(SimDescription description, std::uint32_t threads)
     : description_(std::move(description)),
       threads_(threads),
       scene_(make_sim_scene(description_, threads)) {
+  if (!scene_.obstacle_frames.empty()) {
+    const FollowedObstacle& followed = scene_.obstacle_frames.front();
+    throw std::invalid_argument(followed.what + " follows frame " + quote(followed.frame) +
+                                " of tf: that is for cable_sim, here it must have a path");
+  }
   if (!scene_.frames.empty()) {
     const FollowedFrame& frame = scene_.frames.front();
     throw std::invalid_argument(frame.what + " follows frame " + quote(frame.frame) +

@@ -133,10 +133,10 @@ std::shared_ptr<Fibers> fibers_of(const Simulation& simulation) {
 }
 
 std::shared_ptr<SharedWorld> environment_of(const Simulation& simulation) {
-  const auto environment = simulation.with([](SimScene& scene) { return scene.environment; });
+  const auto objects = simulation.with([](SimScene& scene) { return scene.objects(); });
   auto world = std::make_shared<SharedWorld>();
   std::vector<ObjectChange> changes;
-  for (const EnvironmentObject& object : environment->objects()) {
+  for (const EnvironmentObject& object : objects) {
     changes.push_back({ObjectChange::Operation::ADD, object});
   }
   world->apply(changes);

@@ -6,6 +6,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "fiber_proximity/sim/moving_obstacles.hpp"
 #include "src/sim/require.hpp"
 #include "src/sim/solver/stage_solver.hpp"
 
@@ -114,6 +115,9 @@ void Stepper::take_state(const Stepper& other) {
   if (joints_ != nullptr) {
     joints_->take_state(*other.joints_);
   }
+  if (ObstacleMotions* const obstacles = moving_obstacles()) {
+    obstacles->take_state(*other.moving_obstacles());
+  }
   solver_->take_state(*other.solver_);
 }
 
@@ -126,6 +130,9 @@ void Stepper::step(double length) {
   report_ = StepReport{};
   if (joints_ != nullptr) {
     joints_->unite(rods_);
+  }
+  if (ObstacleMotions* const obstacles = moving_obstacles()) {
+    obstacles->begin_step(time_);
   }
   const double before = kinetic_energy(rods_) + solver_->anchor_energy();
   if (options_.integrator == Integrator::IMPLICIT_EULER) {
@@ -159,6 +166,9 @@ void Stepper::step_by_bdf2(double length) {
   }
   if (report_.is_first_order) {
     rods_.state() = history_.begin;
+    if (ObstacleMotions* const obstacles = moving_obstacles()) {
+      obstacles->restore();
+    }
     solver_->solve(rods_, effects_, {time_, length}, nullptr);
   }
   solver_->add_to(report_);
@@ -208,6 +218,10 @@ bool Stepper::is_solved_by_sdirk2(double length) {
   }
   report_ = first;
   return true;
+}
+
+ObstacleMotions* Stepper::moving_obstacles() const {
+  return contacts_ != nullptr ? contacts_->motions() : nullptr;
 }
 
 RodForces Stepper::forces() const {

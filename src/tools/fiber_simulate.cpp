@@ -154,6 +154,11 @@ SimScene make_scene(const Request& request) {
     replace_holds(load_yaml(request.trajectory), description);
   }
   SimScene scene = make_sim_scene(description, request.threads);
+  if (!scene.obstacle_frames.empty()) {
+    const FollowedObstacle& followed = scene.obstacle_frames.front();
+    throw std::invalid_argument(followed.what + " follows frame " + quote(followed.frame) +
+                                " of tf: that is for cable_sim, here it must have a path");
+  }
   if (!scene.frames.empty()) {
     const FollowedFrame& frame = scene.frames.front();
     throw std::invalid_argument(frame.what + " follows frame " + quote(frame.frame) +

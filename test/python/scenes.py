@@ -60,6 +60,17 @@ class Simulations(unittest.TestCase):
         simulation.step(1)
         np.testing.assert_array_equal(simulation.forces.loads['force'], [[0, 2, 0]])
 
+    def test_a_box_pushes_a_cable(self):
+        box = {'id': 'box', 'pose': {'position': [0.5, 0, 0.94]}, 'primitives': [{'type': 'box', 'dimensions': [0.1, 0.1, 0.1]}],
+               'motion': {'path': [{'time': 0}, {'time': 1, 'position': [0.5, 0, 1.94]}]}}
+        simulation = fp.Simulation({'fibers': [CABLE], 'effects': ['stretch', 'bend', 'environment_contact'],
+                                    'environment': {'obstacles': [box]}})
+        simulation.step(6)
+        felt = simulation.forces.obstacles
+        self.assertEqual(felt['object'].tolist(), [0])
+        np.testing.assert_allclose(felt['point'], [[0.5, 0, 1.04]], atol=1e-9)
+        self.assertLess(felt['force'][0, 2], 0.0)
+
     def test_a_ring_hangs_from_a_cable(self):
         ring = {'name': 'ring', 'material': 'silicone_tube', 'radius': 0.005, 'segments': 16, 'closed': True,
                 'shape': {'polyline': [[1, 0, 1], [1.2, 0, 1], [1.2, 0, 0.8], [1, 0, 0.8]]}}

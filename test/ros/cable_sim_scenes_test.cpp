@@ -7,6 +7,7 @@
 
 #include "fiber_proximity/AttachFiber.h"
 #include "fiber_proximity/DetachFiber.h"
+#include "fiber_proximity/ObstacleArray.h"
 #include "fiber_proximity/SetSimulationParameters.h"
 #include "fiber_proximity/StepSimulation.h"
 #include "test/ros/mesh_files.hpp"
@@ -158,6 +159,41 @@ TEST_F(OwnSceneTest, AnotherSceneHasWrenchesOfItsOwn) {
   write(held("after"));
   ASSERT_TRUE(call<std_srvs::Trigger>("reset").success);
   EXPECT_TRUE(come(after));
+}
+
+std::string with_moving_box(const std::string& motion) {
+  return "environment:\n  obstacles:\n    - id: box\n      pose: {position: [0.5, 0, -0.06]}\n"
+         "      primitives: [{type: box, dimensions: [0.1, 0.1, 0.1]}]\n      motion: " +
+         motion + "\n";
+}
+
+TEST_F(OwnSceneTest, ObstaclesThatMoveAreToldAndFeelFibres) {
+  write(scene(fiber("cable", "[0, 0, 0]", "[1, 0, 0]"),
+              "  - stretch\n  - bend\n  - environment_contact\n") +
+        with_moving_box("{path: [{time: 0}, {time: 1, position: [0.5, 0, 0.94]}]}"));
+  node_test::RunningNode own_sim(command());
+  const node_test::Recorder<geometry_msgs::WrenchStamped> wrenches{
+      node, "/own_sim/obstacle_wrenches/box"};
+  const node_test::Recorder<fiber_proximity::ObstacleArray> obstacles{node, "/own_sim/obstacles"};
+  EXPECT_TRUE(node_test::wait_for([&] {
+    step(1);
+    return !wrenches.messages.empty() && wrenches.messages.back()->wrench.force.z < 0.0;
+  }));
+  EXPECT_TRUE(node_test::wait_for([&] {
+    return !obstacles.messages.empty() &&
+           obstacles.messages.back()->obstacles.at(0).pose.position.z > -0.059;
+  }));
+}
+
+TEST_F(OwnSceneTest, AnObstaclesFrameThatDoesNotComeIsAnError) {
+  node.setParam("/own_sim/frame_wait", 0.2);
+  write(scene(fiber("cable", "[0, 0, 0]", "[1, 0, 0]"), "  - stretch\n  - environment_contact\n") +
+        with_moving_box("{frame: nowhere}"));
+  const ProcessResult result = run();
+  node.deleteParam("/own_sim/frame_wait");
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.err.find("'box'"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("nothing of frame 'nowhere'"), std::string::npos) << result.err;
 }
 
 TEST_F(OwnSceneTest, AnAccuracyThatTakesForEverIsRefused) {

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <ostream>
+#include <utility>
 #include <vector>
 
 #include "test/support/random.hpp"
@@ -45,6 +46,16 @@ std::vector<Drawn> all_ropes() {
     }
   }
   return all;
+}
+
+/// A drum that turns under a belt slips as a belt that is drawn over it does.
+TEST(Capstan, ADrumSlipsUnderABelt) {
+  for (const auto& [degrees, friction] :
+       {std::pair(90, 0.3), std::pair(180, 0.3), std::pair(180, 0.6)}) {
+    const Drawn drawn{"rope", degrees, friction};
+    const double found = tension_ratio_on_drum({drawn.turns(), 72}, friction);
+    EXPECT_NEAR(found, drawn.exact(), 0.02 * drawn.exact()) << drawn;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Ropes, CapstanOf, testing::ValuesIn(all_ropes()));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fiber_proximity/sim/moving_obstacles.hpp"
 #include "validation/sim/contact_scenes.hpp"
 
 namespace fiber {
@@ -88,7 +89,32 @@ double Incline::normal_force() const {
   return force;
 }
 
-double tension_ratio(const Capstan& capstan, double friction) {
+namespace {
+
+/// The post, which turns the other way at the speed at which a rope is drawn, or stands.
+std::unique_ptr<Contacts> contacts_with_post(double turn_rate, double friction) {
+  std::vector<std::unique_ptr<ContactSource>> sources;
+  std::shared_ptr<ObstacleMotions> motions;
+  const CylinderShape post{post_radius, 1.0};
+  if (turn_rate == 0.0) {
+    sources.push_back(
+        std::make_unique<EnvironmentContact>(environment_of(post), EnvironmentContact::Options{}));
+  } else {
+    MovingObstacle drum;
+    drum.object.name = "drum";
+    drum.object.shapes.push_back({post, Eigen::Isometry3d::Identity()});
+    drum.placement = [turn_rate](double time) {
+      return Eigen::Isometry3d(Eigen::AngleAxisd(-turn_rate * time, Vector3d::UnitZ()));
+    };
+    motions = std::make_shared<ObstacleMotions>(std::vector<MovingObstacle>{drum}, 0);
+    sources.push_back(
+        std::make_unique<MovingObstacleContact>(motions, EnvironmentContact::Options{}));
+  }
+  return std::make_unique<Contacts>(
+      std::move(sources), std::make_unique<Friction>(Friction::Options{friction, 1e-3}), motions);
+}
+
+double ratio_of_tensions(const Capstan& capstan, double friction, bool turns_post) {
   const RodMaterial material = material_preset(capstan.material);
   const double radius = rope_radius(material);
   const double axis_radius = post_radius + radius;
@@ -108,18 +134,14 @@ double tension_ratio(const Capstan& capstan, double friction) {
   const Vector3d edge = points[last] - points[last - 1];
   Attachment::Hold pull = pin(last, points[last]);
   pull.placement = [=, start = points[last]](double time) {
-    return Placement{start + time / (steps_per_edge * step_length) * edge, Vector3d::Zero(),
-                     Vector3d::Zero()};
+    const double way = turns_post ? 0.0 : time / (steps_per_edge * step_length);
+    return Placement{start + way * edge, Vector3d::Zero(), Vector3d::Zero()};
   };
   Effects all = elastic();
   all.push_back(hold(rods, {load, pull}));
-  std::vector<std::unique_ptr<ContactSource>> sources;
-  sources.push_back(std::make_unique<EnvironmentContact>(
-      environment_of(CylinderShape{post_radius, 1.0}), EnvironmentContact::Options{}));
-  Stepper stepper(
-      rods, std::move(all), StepperOptions{},
-      std::make_unique<Contacts>(std::move(sources),
-                                 std::make_unique<Friction>(Friction::Options{friction, 1e-3})));
+  const double turn_rate =
+      turns_post ? 2.0 * M_PI / (capstan.edges_per_turn * steps_per_edge * step_length) : 0.0;
+  Stepper stepper(rods, std::move(all), StepperOptions{}, contacts_with_post(turn_rate, friction));
   double before = 0.0;
   double beyond = 0.0;
   constexpr int edges_before = 3;  // until all of it slides
@@ -132,6 +154,16 @@ double tension_ratio(const Capstan& capstan, double friction) {
     }
   }
   return beyond / before;
+}
+
+}  // namespace
+
+double tension_ratio(const Capstan& capstan, double friction) {
+  return ratio_of_tensions(capstan, friction, false);
+}
+
+double tension_ratio_on_drum(const Capstan& capstan, double friction) {
+  return ratio_of_tensions(capstan, friction, true);
 }
 
 double lowering_of_simulated_tip(double friction, int segments) {

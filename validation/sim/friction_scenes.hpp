@@ -48,6 +48,9 @@ struct Capstan {
 /// time in which it moves by an edge.
 double tension_ratio(const Capstan& capstan, double friction);
 
+/// The same where the rope is held and the post turns under it, as a drum does under a belt.
+double tension_ratio_on_drum(const Capstan& capstan, double friction);
+
 /// A rod without weight hangs from a clamp that points down and is lowered onto a plane, slowly:
 /// how much nearer to its tip than its length the clamp is where the tip slides, over the length.
 double lowering_of_simulated_tip(double friction, int segments);

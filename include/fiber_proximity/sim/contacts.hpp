@@ -63,19 +63,27 @@ class ContactSource {
   virtual void find(const Rods& rods, const TravelBound& bound, ContactSet& found) = 0;
 };
 
+class ObstacleMotions;
+
 /// All contact effects of a simulation, and the friction in their contacts.
 class Contacts {
  public:
   /// @param friction null for none
-  Contacts(std::vector<std::unique_ptr<ContactSource>> sources, std::shared_ptr<Friction> friction)
-      : sources_(std::move(sources)), friction_(std::move(friction)) {}
+  /// @param motions  of the obstacles that move; null for none
+  Contacts(std::vector<std::unique_ptr<ContactSource>> sources, std::shared_ptr<Friction> friction,
+           std::shared_ptr<ObstacleMotions> motions = nullptr)
+      : sources_(std::move(sources)),
+        friction_(std::move(friction)),
+        motions_(std::move(motions)) {}
 
   const std::vector<std::unique_ptr<ContactSource>>& sources() const { return sources_; }
   const Friction* friction() const { return friction_.get(); }
+  ObstacleMotions* motions() const { return motions_.get(); }
 
  private:
   std::vector<std::unique_ptr<ContactSource>> sources_;
   std::shared_ptr<Friction> friction_;
+  std::shared_ptr<ObstacleMotions> motions_;
 };
 
 struct EdgePair;

@@ -34,6 +34,14 @@ struct RodForces {
     double max_force;        ///< with which the hold pulls at most [N]
   };
 
+  /// What rods exert on an object that moves.
+  struct ObstacleForce {
+    std::uint32_t object;    ///< as ContactForce counts them
+    Eigen::Vector3d point;   ///< the origin of the object [m]
+    Eigen::Vector3d force;   ///< [N]
+    Eigen::Vector3d moment;  ///< about the origin [N m]
+  };
+
   /// The share of a load that acts at a node and on the edge after it.
   struct LoadForce {
     std::uint32_t load;  ///< as Loads::add() counts them
@@ -68,7 +76,8 @@ struct RodForces {
   std::vector<ContactForce> contacts;
   std::vector<HoldForce> holds;
   std::vector<LoadForce> loads;
-  std::vector<JointForce> joints;  ///< those of a joint add up to 0
+  std::vector<JointForce> joints;        ///< those of a joint add up to 0
+  std::vector<ObstacleForce> obstacles;  ///< one of each object that moves
 };
 
 }  // namespace fiber

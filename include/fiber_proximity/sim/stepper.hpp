@@ -107,6 +107,9 @@ class Stepper {
   /// Null for none.
   const Joints* joints() const { return joints_.get(); }
 
+  /// Of the obstacles that move; null for none. They may be redirected between two steps.
+  ObstacleMotions* moving_obstacles() const;
+
   /// The result of the last step.
   const StepReport& report() const { return report_; }
 

@@ -145,10 +145,24 @@ EnvironmentObject read_object(const YamlField& entry, const std::string& name,
   });
 }
 
-SceneObstacle read_obstacle(const YamlField& entry, const MeshSource& meshes) {
-  entry.require_map({"id", "frame_id", "pose", "primitives", "primitive_poses", "capsules",
-                     "capsule_poses", "meshes", "mesh_poses", "planes", "plane_poses",
-                     "half_spaces", "half_space_poses"});
+SceneObstacle read_obstacle(const YamlField& entry, const MeshSource& meshes, bool may_move) {
+  std::vector<std::string> keys{"id",
+                                "frame_id",
+                                "pose",
+                                "primitives",
+                                "primitive_poses",
+                                "capsules",
+                                "capsule_poses",
+                                "meshes",
+                                "mesh_poses",
+                                "planes",
+                                "plane_poses",
+                                "half_spaces",
+                                "half_space_poses"};
+  if (may_move) {
+    keys.emplace_back("motion");
+  }
+  entry.require_map(keys);
   SceneObstacle obstacle;
   const std::string name = entry.get("id").text();
   const YamlField named = entry.named("obstacle " + quote(name));
@@ -156,6 +170,8 @@ SceneObstacle read_obstacle(const YamlField& entry, const MeshSource& meshes) {
     obstacle.frame_id = frame->text();
   }
   obstacle.object = read_object(named, name, entry.place(), meshes);
+  obstacle.place = named.place();
+  obstacle.motion = named.find("motion");
   return obstacle;
 }
 
@@ -178,12 +194,13 @@ NamedPair read_pair(const YamlField& entry) {
 
 }  // namespace
 
-EnvironmentScene read_environment_scene(const YamlField& document, const MeshSource& meshes) {
+EnvironmentScene read_environment_scene(const YamlField& document, const MeshSource& meshes,
+                                        bool may_move) {
   document.require_map({"obstacles", "allowed"});
   EnvironmentScene scene;
   std::set<std::string> names;
   scene.obstacles = read_list(document, "obstacles", [&](const YamlField& entry) {
-    SceneObstacle obstacle = read_obstacle(entry, meshes);
+    SceneObstacle obstacle = read_obstacle(entry, meshes, may_move);
     if (!names.insert(obstacle.object.name).second) {
       throw std::invalid_argument(entry.place() + " has the id " + quote(obstacle.object.name) +
                                   " of another obstacle of the scene");

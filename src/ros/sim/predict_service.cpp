@@ -101,7 +101,7 @@ void fill_in(const fiber::Prediction& told, const SceneCopy& copy, Response& res
                response.clearances.emplace_back());
     response.clearance_times.push_back(clearance.time);
   }
-  response.object_names = object_names(*copy.scene.environment);
+  response.object_names = object_names(fiber::Environment(copy.scene.objects()));
   for (const fiber::PredictedTouch& touch : told.touches) {
     fiber_proximity::PredictedTouch& message = response.touches.emplace_back();
     message.fiber = touch.rod;

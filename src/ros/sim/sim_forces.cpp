@@ -19,8 +19,8 @@ constexpr std::size_t max_arrows = 200;  // rviz takes long for more; the larges
 constexpr double longest_arrow = 0.25;   // of the scene
 constexpr double fading = 0.97;          // of a scale, from drawing to drawing
 
-/// Two fibres whose names differ by what is not allowed in a topic's name have different indices.
-std::string topic_name(const fiber::SimScene& scene, std::uint32_t rod, std::uint32_t node) {
+/// Two whose names differ by what is not allowed in a topic's name have different indices.
+std::string allowed_name(const std::vector<std::string>& names, std::size_t index) {
   const auto allowed = [](const std::string& name) {
     std::string text = name;
     std::replace_if(
@@ -28,13 +28,25 @@ std::string topic_name(const fiber::SimScene& scene, std::uint32_t rod, std::uin
         [](unsigned char letter) { return std::isalnum(letter) == 0 && letter != '_'; }, '_');
     return text;
   };
-  const std::vector<std::string>& names = scene.fiber_names;
-  std::string name = allowed(names[rod]);
+  std::string name = allowed(names[index]);
   const auto is_same = [&](const std::string& other) { return allowed(other) == name; };
   if (std::count_if(names.begin(), names.end(), is_same) > 1) {
-    name += "_" + std::to_string(rod);
+    name += "_" + std::to_string(index);
   }
-  return "wrenches/" + name + "/" + std::to_string(node);
+  return name;
+}
+
+std::string topic_name(const fiber::SimScene& scene, std::uint32_t rod, std::uint32_t node) {
+  return "wrenches/" + allowed_name(scene.fiber_names, rod) + "/" + std::to_string(node);
+}
+
+geometry_msgs::WrenchStamped wrench_of(const fiber::RodForces::ObstacleForce& obstacle,
+                                       const std_msgs::Header& header) {
+  geometry_msgs::WrenchStamped message;
+  message.header = header;
+  message.wrench.force = to_vector_message(obstacle.force);
+  message.wrench.torque = to_vector_message(obstacle.moment);
+  return message;
 }
 
 /// Columns: tangent, director and what is across both.
@@ -87,7 +99,7 @@ void fill_in(const fiber::SimScene& scene, const fiber::RodForces& forces,
     contact.fiber = force.rod;
     contact.segment = force.edge;
     if (force.other_rod == fiber::RodForces::ContactForce::obstacle) {
-      contact.object = scene.environment->objects()[force.object].name;
+      contact.object = scene.object_name(force.object);
     } else {
       contact.other_fiber = force.other_rod;
       contact.other_segment = force.other_edge;
@@ -227,8 +239,24 @@ ros::Publisher& SimForces::wrench_topic(const fiber::SimScene& scene, const Hold
   return publisher;
 }
 
+void SimForces::advertise_obstacles(const fiber::SimScene& scene) {
+  if (scene.motions() == nullptr || !obstacle_wrenches_.empty()) {
+    return;
+  }
+  std::vector<std::string> names;
+  for (const fiber::MovingObstacle& obstacle : scene.motions()->obstacles()) {
+    names.push_back(obstacle.object.name);
+  }
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    obstacle_wrenches_.push_back(node_.advertise<geometry_msgs::WrenchStamped>(
+        "obstacle_wrenches/" + allowed_name(names, i), 1));
+  }
+}
+
 bool SimForces::has_listeners() const {
-  return forces_.getNumSubscribers() > 0 || drawing_.getNumSubscribers() > 0 ||
+  const auto is_heard = [](const ros::Publisher& each) { return each.getNumSubscribers() > 0; };
+  return std::any_of(obstacle_wrenches_.begin(), obstacle_wrenches_.end(), is_heard) ||
+         forces_.getNumSubscribers() > 0 || drawing_.getNumSubscribers() > 0 ||
          std::any_of(wrenches_.begin(), wrenches_.end(),
                      [](const auto& each) { return each.second.getNumSubscribers() > 0; });
 }
@@ -240,6 +268,7 @@ void SimForces::publish(const fiber::SimScene& scene, const std_msgs::Header& he
       wrench_topic(scene, hold);
     }
   }
+  advertise_obstacles(scene);
   if (!has_listeners()) {
     return;
   }
@@ -251,6 +280,9 @@ void SimForces::publish(const fiber::SimScene& scene, const std_msgs::Header& he
   }
   for (const fiber::RodForces::HoldForce& hold : forces.holds) {
     wrench_topic(scene, {hold.rod, hold.node}).publish(wrench_of(scene, hold, header));
+  }
+  for (std::size_t i = 0; i < forces.obstacles.size(); ++i) {
+    obstacle_wrenches_[i].publish(wrench_of(forces.obstacles[i], header));
   }
   if (drawing_.getNumSubscribers() > 0) {
     draw(scene, forces, header);

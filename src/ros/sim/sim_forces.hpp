@@ -6,6 +6,7 @@
 #include <map>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "fiber_proximity/ForceArray.h"
 #include "fiber_proximity/sim/scene/scene.hpp"
@@ -19,6 +20,8 @@ namespace fiber_proximity_ros {
 /// - ~wrenches/FIBRE/NODE: for each hold what the fibre exerts on it, as a sensor of force and
 ///   torque in a gripper measures it. For a hold that follows a frame of tf it is in that frame and
 ///   about its origin; for other holds in the scene's frame and about the node.
+/// - ~obstacle_wrenches/NAME: what fibres exert on an obstacle that moves, in the scene's frame and
+///   about the obstacle's origin
 /// - ~force_markers: drawn for rviz
 ///
 /// | ns       | what                                                                            |
@@ -32,7 +35,10 @@ class SimForces {
   explicit SimForces(const ros::NodeHandle& node);
 
   /// Begins with another scene, whose fibres may have other names.
-  void begin() { wrenches_.clear(); }
+  void begin() {
+    wrenches_.clear();
+    obstacle_wrenches_.clear();
+  }
 
   /// @param header of the frame
   void publish(const fiber::SimScene& scene, const std_msgs::Header& header);
@@ -41,6 +47,7 @@ class SimForces {
   using Hold = std::pair<std::uint32_t, std::uint32_t>;  // rod and node
 
   bool has_listeners() const;
+  void advertise_obstacles(const fiber::SimScene& scene);
   ros::Publisher& wrench_topic(const fiber::SimScene& scene, const Hold& hold);
   void draw(const fiber::SimScene& scene, const fiber::RodForces& forces,
             const std_msgs::Header& header);
@@ -49,6 +56,7 @@ class SimForces {
   ros::Publisher forces_;
   ros::Publisher drawing_;
   std::map<Hold, ros::Publisher> wrenches_;
+  std::vector<ros::Publisher> obstacle_wrenches_;  // by obstacle that moves
   fiber_proximity::ForceArray message_;
   visualization_msgs::MarkerArray markers_;
   MarkerCanvas::Counts drawn_;

@@ -15,8 +15,8 @@ constexpr double fastest_frame = 5.0;  // [m/s]
 
 /// Tells when something has stopped to follow its frame, and when it follows again.
 /// @param how it stopped, and why
-void note(const fiber::FollowedFrame& followed, bool is_stopped, const std::string& how,
-          bool& was_stopped) {
+template <class Followed>
+void note(const Followed& followed, bool is_stopped, const std::string& how, bool& was_stopped) {
   if (is_stopped && !was_stopped) {
     ROS_WARN_STREAM(followed.what << how);
   } else if (!is_stopped && was_stopped) {
@@ -27,8 +27,8 @@ void note(const fiber::FollowedFrame& followed, bool is_stopped, const std::stri
 
 }  // namespace
 
-void SimFrames::watch(const fiber::FollowedFrame& followed, Watch& watch,
-                      const std::string& problem) const {
+template <class Followed>
+void SimFrames::watch(const Followed& followed, Watch& watch, const std::string& problem) const {
   const ros::SteadyTime now = ros::SteadyTime::now();
   if (problem.empty() || watch.since.isZero()) {
     watch.since = now;
@@ -37,13 +37,12 @@ void SimFrames::watch(const fiber::FollowedFrame& followed, Watch& watch,
        watch.is_frozen);
 }
 
-void SimFrames::wait_for(const std::vector<fiber::FollowedFrame>& frames, double timeout) const {
+void SimFrames::wait_for(const fiber::SimScene& scene, double timeout) const {
   const ros::SteadyTime begin = ros::SteadyTime::now();
-  for (const fiber::FollowedFrame& followed : frames) {
-    for (bool is_known = false; !is_known && ros::ok();) {
+  const auto wait = [&](const auto& followed) {
+    while (ros::ok()) {
       try {
-        world_.latest_pose(followed.frame, ros::Time(0));
-        is_known = true;
+        return world_.latest_pose(followed.frame, ros::Time(0)).pose;
       } catch (const TransformUnavailable& error) {
         if ((ros::SteadyTime::now() - begin).toSec() >= timeout) {
           throw std::invalid_argument(followed.what + ": nothing of frame " +
@@ -53,6 +52,34 @@ void SimFrames::wait_for(const std::vector<fiber::FollowedFrame>& frames, double
         ros::WallDuration(0.05).sleep();
       }
     }
+    return Eigen::Isometry3d(Eigen::Isometry3d::Identity());
+  };
+  for (const fiber::FollowedFrame& followed : scene.frames) {
+    wait(followed);
+  }
+  for (const fiber::FollowedObstacle& followed : scene.obstacle_frames) {
+    const Eigen::Isometry3d pose = wait(followed) * followed.in_frame;
+    *followed.path = {{0.0, pose}};
+    scene.stepper->moving_obstacles()->place(followed.obstacle, pose);
+  }
+}
+
+template <class Followed>
+std::optional<FramePose> SimFrames::look(const Followed& followed) {
+  Watch& watch = watches_[followed.what];
+  try {
+    const FramePose frame = world_.latest_pose(followed.frame, ros::Time(0));
+    // A static frame has no stamp, and is there for ever.
+    const bool is_new = frame.stamp.isZero() || frame.stamp != watch.stamp;
+    watch.stamp = frame.stamp;
+    this->watch(followed, watch,
+                is_new ? ""
+                       : "nothing new of frame " + fiber::quote(followed.frame) +
+                             " for more than " + std::to_string(timeout_) + " s");
+    return frame;
+  } catch (const TransformUnavailable& error) {
+    this->watch(followed, watch, error.what());
+    return std::nullopt;
   }
 }
 
@@ -61,27 +88,35 @@ void SimFrames::follow(const fiber::SimScene& scene) {
   for (const fiber::FollowedFrame& followed : scene.frames) {
     const fiber::Placement last = followed.path->back().second;
     fiber::Placement next = last;
-    Watch& watch = watches_[followed.what];
-    try {
-      const FramePose frame = world_.latest_pose(followed.frame, ros::Time(0));
-      // A static frame has no stamp, and is there for ever.
-      const bool is_new = frame.stamp.isZero() || frame.stamp != watch.stamp;
-      watch.stamp = frame.stamp;
-      this->watch(followed, watch,
-                  is_new ? ""
-                         : "nothing new of frame " + fiber::quote(followed.frame) +
-                               " for more than " + std::to_string(timeout_) + " s");
+    if (const std::optional<FramePose> frame = look(followed)) {
       const fiber::Placement& in_frame = followed.in_frame;
       // The hold goes as far on the way there as a frame leads.
       const fiber::Lead lead = fiber::lead(scene, {followed.rod, followed.node}, last.position,
-                                           frame.pose * in_frame.position, fastest_frame);
+                                           frame->pose * in_frame.position, fastest_frame);
       note(followed, !lead.problem.empty(),
            " does not follow frame " + fiber::quote(followed.frame) + ": " + lead.problem,
-           watch.is_held_back);
-      next = {lead.position, frame.pose.linear() * in_frame.tangent,
-              frame.pose.linear() * in_frame.director};
-    } catch (const TransformUnavailable& error) {
-      this->watch(followed, watch, error.what());
+           watches_[followed.what].is_held_back);
+      next = {lead.position, frame->pose.linear() * in_frame.tangent,
+              frame->pose.linear() * in_frame.director};
+    }
+    *followed.path = {{start, last}, {start + scene.time_step, next}};
+  }
+  follow_obstacles(scene);
+}
+
+/// As far on their ways as none of their points is too fast, going straight.
+void SimFrames::follow_obstacles(const fiber::SimScene& scene) {
+  const double start = scene.stepper->time();
+  for (const fiber::FollowedObstacle& followed : scene.obstacle_frames) {
+    const Eigen::Isometry3d last = followed.path->back().second;
+    Eigen::Isometry3d next = last;
+    if (const std::optional<FramePose> frame = look(followed)) {
+      next = frame->pose * followed.in_frame;
+      const double way = (next.translation() - last.translation()).norm();
+      const double longest = fastest_frame * scene.time_step;
+      if (way > longest) {
+        next = fiber::pose_at({{0.0, last}, {1.0, next}}, longest / way);
+      }
     }
     *followed.path = {{start, last}, {start + scene.time_step, next}};
   }

@@ -3,8 +3,8 @@
 #include <ros/time.h>
 
 #include <map>
+#include <optional>
 #include <string>
-#include <vector>
 
 #include "fiber_proximity/sim/scene/scene.hpp"
 #include "src/ros/inputs/fixed_frame.hpp"
@@ -20,14 +20,15 @@ class SimFrames {
   /// @param timeout [s] of wall time without anything new of a frame
   SimFrames(const FixedFrame& world, double timeout) : world_(world), timeout_(timeout) {}
 
-  /// Waits until tf knows all these frames.
+  /// Waits until tf knows all frames of a scene that has just been made, and brings the obstacles
+  /// that follow some to them.
   /// @param timeout [s] of wall time
   /// @throws std::invalid_argument naming the scene's line, the fibre and the frame that did not
   /// come
-  void wait_for(const std::vector<fiber::FollowedFrame>& frames, double timeout) const;
+  void wait_for(const fiber::SimScene& scene, double timeout) const;
 
-  /// Leads all holds to their frames during the next frame of the scene, no faster than 5 m/s, as
-  /// after a gap they may be far away.
+  /// Leads all holds and obstacles to their frames during the next frame of the scene, no faster
+  /// than 5 m/s, as after a gap they may be far away.
   void follow(const fiber::SimScene& scene);
 
  private:
@@ -39,7 +40,13 @@ class SimFrames {
   };
 
   /// @param problem why nothing new is known; empty if there is something new
-  void watch(const fiber::FollowedFrame& followed, Watch& watch, const std::string& problem) const;
+  template <class Followed>
+  void watch(const Followed& followed, Watch& watch, const std::string& problem) const;
+
+  /// The latest pose of what is followed; none while tf does not know it, which it warns of.
+  template <class Followed>
+  std::optional<FramePose> look(const Followed& followed);
+  void follow_obstacles(const fiber::SimScene& scene);
 
   const FixedFrame& world_;
   double timeout_;

@@ -101,7 +101,7 @@ SimServer::SimServer(const ros::NodeHandle& private_node, const SimOptions& opti
       is_paused_(options.paused),
       next_frame_(ros::SteadyTime::now()),
       forces_(private_node) {
-  frames_.wait_for(scene_.frames, options.frame_wait);
+  frames_.wait_for(scene_, options.frame_wait);
   log_scene(options_, description, scene_);
   fibers_ = node_.advertise<fiber_proximity::FiberArray>("fibers", 1, true);
   if (options_.clock) {
@@ -186,6 +186,9 @@ void SimServer::run_frame() {
   }
   scene_.advance();
   publish();
+  if (scene_.motions() != nullptr) {
+    publish_obstacles({});
+  }
   forces_.publish(scene_, message_.header);
   warn();
 }
@@ -218,7 +221,7 @@ void SimServer::publish() {
 
 /// @param before objects of the scene before: those that the scene no longer has are removed
 void SimServer::publish_obstacles(const std::vector<fiber::EnvironmentObject>& before) {
-  const std::vector<fiber::EnvironmentObject>& objects = scene_.environment->objects();
+  const std::vector<fiber::EnvironmentObject> objects = scene_.objects();
   fiber_proximity::ObstacleArray message;
   for (const fiber::EnvironmentObject& old : before) {
     const auto is_same = [&old](const auto& object) { return object.name == old.name; };

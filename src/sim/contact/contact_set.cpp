@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <map>
 #include <numeric>
 
 namespace fiber {
@@ -39,6 +38,7 @@ void ContactSet::clear() {
   was_near_.clear();
   frictions_.clear();
   impacts_.clear();
+  moved_.reset();
   for (std::vector<ContactTerm>& terms : terms_) {
     terms.clear();
   }
@@ -90,6 +90,25 @@ void ContactSet::begin(const Rods& rods, const Friction* friction, const Frictio
   }
 }
 
+namespace {
+
+/// Has slips measured against an obstacle that moves, and the slip from before turn with it.
+/// @param reference where the slip is nil
+void move_reference(const MovedShapes& moved, const Rods& rods, const ContactPoints& points,
+                    const std::optional<SurfaceLevers>& levers, Vector3d& reference,
+                    Vector3d& slip) {
+  if (const MovedShape* const shape = moved.of_object(points)) {
+    Vector3d point = point_at(rods.positions, points.edge_a, points.s);
+    if (levers) {
+      point += levers->front().arm;
+    }
+    reference += shape->displacement(point);
+    slip = shape->turned(slip);
+  }
+}
+
+}  // namespace
+
 /// Adds the friction by the normal forces at the current distances of the contacts for whose first
 /// rod is_wanted(rod) holds.
 template <class Predicate>
@@ -110,7 +129,11 @@ void ContactSet::add_friction(const Rods& rods, const Predicate& is_wanted) {
                 lever_motion(*levers, points, origins_.state->positions, origins_.state->angles);
           }
           const double max_force = friction_->coefficient() * term.pressure;
-          reference -= origins_.anchors->slip_at(points, term.normal, max_force, stick_length_);
+          Vector3d slip = origins_.anchors->slip_at(points, term.normal, max_force, stick_length_);
+          if (moved_ != nullptr) {
+            move_reference(*moved_, rods, points, levers, reference, slip);
+          }
+          reference -= slip;
           by_chunk[index].reserve(end - begin);
           by_chunk[index].push_back({points, term.normal, max_force, reference, levers});
         }
@@ -285,61 +308,8 @@ void ContactSet::find_derivatives(const Rods& rods) {
       find_terms(rods, i, found, terms_[index]);
     }
   });
-}
-
-void ContactSet::add_forces(const Rods& rods, std::vector<RodForces::ContactForce>& forces) const {
-  using Key = std::array<std::uint32_t, 3>;
-  std::map<Key, std::size_t> places;
-  const auto force_of = [&](const ContactPoints& points) -> RodForces::ContactForce& {
-    const auto [place, is_new] =
-        places.emplace(Key{points.edge_a, points.rod_b, points.edge_b}, forces.size());
-    if (is_new) {
-      const bool is_obstacle = !points.is_of_rods();
-      RodForces::ContactForce& force = forces.emplace_back();
-      force.rod = points.rod_a;
-      force.edge = points.edge_a - rods.first(points.rod_a);
-      force.other_rod = is_obstacle ? RodForces::ContactForce::obstacle : points.rod_b;
-      force.other_edge = is_obstacle ? 0 : points.edge_b - rods.first(points.rod_b);
-      force.object = is_obstacle ? points.rod_b : 0;
-      force.point = force.normal_force = force.friction_force = Vector3d::Zero();
-    }
-    return forces[place->second];
-  };
-  std::map<std::size_t, double> weights;
-  const auto press = [&](const ContactPoints& points, const DistanceTerm& term) {
-    RodForces::ContactForce& force = force_of(points);
-    const Vector3d on_a = point_at(rods.positions, points.edge_a, points.s);
-    const double radius_a = rods.edge_radius(points.rod_a, points.edge_a);
-    Vector3d between = on_a - radius_a * term.normal;
-    if (points.is_of_rods()) {
-      const Vector3d on_b = point_at(rods.positions, points.edge_b, points.t);
-      const double share = radius_a / (radius_a + rods.edge_radius(points.rod_b, points.edge_b));
-      between = on_a + share * (on_b - on_a);
-    }
-    force.normal_force -= term.slope * term.normal;
-    force.point += std::abs(term.slope) * between;
-    weights[static_cast<std::size_t>(&force - forces.data())] += std::abs(term.slope);
-  };
-  std::vector<DistanceTerm> buffer;
-  for (std::size_t i = 0; i < distance_count(); ++i) {
-    for_each_term(rods, i, buffer, press);
-  }
-  for (const auto& [place, weight] : weights) {
-    forces[place].point /= weight;
-  }
-  for (const Impact& impact : impacts_) {
-    RodForces::ContactForce& force = force_of(impact.points);
-    force.normal_force += impact.pressure / step_ * impact.normal;
-    force.friction_force += impact.friction / step_;
-  }
-  for (const FrictionPoint& point : frictions_) {
-    const Vector3d slip = point.slip(rods);
-    RodForces::ContactForce& force = force_of(point.points);
-    if (force.point.isZero(0.0)) {
-      force.point = point_at(rods.positions, point.points.edge_a, point.points.s);
-    }
-    force.friction_force -=
-        point.max_force * Friction::law(slip.norm(), stick_length_).resistance * slip;
+  if (moved_ != nullptr) {
+    add_terms_of_motion(rods);
   }
 }
 

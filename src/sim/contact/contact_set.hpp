@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -12,12 +13,14 @@
 #include "src/sim/contact/edge_contact.hpp"
 #include "src/sim/contact/friction_anchors.hpp"
 #include "src/sim/contact/impact.hpp"
+#include "src/sim/contact/moved_shapes.hpp"
 #include "src/sim/contact/obstacle_contact.hpp"
 #include "src/sim/solver/line_search.hpp"
 
 namespace fiber {
 
-/// An edge and an obstacle that it may reach.
+/// An edge and an obstacle that it may reach. Where it is when looked for counts for those that
+/// stand still only.
 struct ObstacleEdge {
   std::uint32_t rod;
   std::uint32_t edge;  ///< as Rods counts edges
@@ -42,6 +45,16 @@ class ContactSet {
   std::vector<ObstacleEdge> obstacle_edges;
 
   void clear();
+
+  /// Begins a solve in which obstacles may move: to be called before begin().
+  /// @param islands by rod
+  /// @param count   of islands
+  void begin_motion(const std::vector<std::uint32_t>& islands, std::size_t count) {
+    moved_ = std::make_unique<MovedShapes>(obstacle_contacts, obstacle_edges, islands, count);
+  }
+
+  /// Null without begin_motion().
+  MovedShapes* moved_shapes() const { return moved_.get(); }
 
   bool is_empty() const {
     return pairs.empty() && obstacle_contacts.empty() && obstacle_edges.empty();
@@ -81,6 +94,30 @@ class ContactSet {
   /// Updates the distances to where the rods are now. The functions below use these.
   void update_distances(const Rods& rods);
 
+  /// Adds the work that moving obstacles have done in the solve by the forces at the current
+  /// distances, to that of the island of its rod [J].
+  /// @param islands by rod
+  void add_obstacle_work(const Rods& rods, const std::vector<std::uint32_t>& islands,
+                         std::vector<double>& work) const;
+
+  /// Makes each at least the longest way that is left to an obstacle that rods of the island may
+  /// reach [m].
+  void add_longest_ways(const Rods& rods, const std::vector<std::uint32_t>& islands,
+                        std::vector<double>& ways) const;
+
+  /// The derivatives of contacts' energies at the current distances along what is left of the ways
+  /// of obstacles [J].
+  struct MotionEnergy {
+    double slope = 0.0;
+    double square = 0.0;  ///< the second one
+    double mixed = 0.0;   ///< that along the displacements of rods, too, with the other sign
+  };
+
+  /// Adds them to those of the islands of their rods.
+  void add_motion_energies(const Rods& rods, const std::vector<Eigen::Vector3d>& displacements,
+                           const std::vector<std::uint32_t>& islands,
+                           std::vector<MotionEnergy>& energies) const;
+
   /// Evaluates the energy of each contact at the current distances.
   void evaluate_energies(const Rods& rods) { evaluate_energies(rods, 0); }
 
@@ -115,6 +152,10 @@ class ContactSet {
   /// Appends the forces of the contacts at the current distances.
   void add_forces(const Rods& rods, std::vector<RodForces::ContactForce>& forces) const;
 
+  /// Adds what the rods exert on obstacles that move.
+  /// @param forces of these objects, in order; with the points that moments are about
+  void add_obstacle_forces(const Rods& rods, std::vector<RodForces::ObstacleForce>& forces) const;
+
  private:
   /// A contact with a normal force.
   struct FrictionPoint {
@@ -131,6 +172,12 @@ class ContactSet {
   template <class Predicate>
   void add_friction(const Rods& rods, const Predicate& is_wanted);
   double restitution_of(std::size_t contact) const;
+  Eigen::Vector3d obstacle_velocity(const Rods& rods, const ContactPoints& points) const;
+  void add_terms_of_motion(const Rods& rods);
+  template <class Function>
+  void for_each_term_of_motion(const Rods& rods, const Function& function) const;
+  template <class Function>
+  void for_each_obstacle_force(const Rods& rods, const Function& function) const;
   template <class Function>
   void for_each_term(const Rods& rods, std::size_t index, std::vector<DistanceTerm>& found,
                      const Function& function) const;
@@ -146,7 +193,8 @@ class ContactSet {
   std::vector<ObstacleDistance> obstacle_distances_;  // by contact
   std::vector<bool> was_near_;                        // when the step began, by contact
   std::vector<FrictionPoint> frictions_;
-  std::vector<Impact> impacts_;  // of the step
+  std::vector<Impact> impacts_;         // of the step
+  std::unique_ptr<MovedShapes> moved_;  // null where no obstacle moves
   const Friction* friction_ = nullptr;
   FrictionOrigins origins_;
   double step_ = 0.0;          // [s]

@@ -206,11 +206,13 @@ std::vector<Impact> ContactSet::find_impacts(const Rods& rods) const {
       if (!(term.pressure > 0.0)) {
         return;
       }
-      const double approach = -difference_of_points(rods.velocities, points).dot(term.normal);
+      const Vector3d of_obstacle = obstacle_velocity(rods, points);
+      const double approach =
+          (of_obstacle - difference_of_points(rods.velocities, points)).dot(term.normal);
       const bool has_begun = !was_near_[i] && approach > Impact::min_speed;
       has_any_begun |= has_begun;
       found.push_back({points, term.normal, surface_levers(rods, points, term.normal), has_begun,
-                       has_begun ? restitution_of(i) * approach : 0.0});
+                       has_begun ? restitution_of(i) * approach : 0.0, of_obstacle});
     });
   }
   return has_any_begun ? found : std::vector<Impact>{};
@@ -221,12 +223,22 @@ void ContactSet::bound_step(const Rods& rods, const std::vector<Vector3d>& displ
                             std::vector<Vector3d>& ends) const {
   for (std::size_t i = 0; i < obstacle_contacts.size(); ++i) {
     double& share = shares[islands[obstacle_contacts[i].rod]];
+    const MovedShape* const moved = moved_ != nullptr ? moved_->of_contact(i) : nullptr;
+    if (moved != nullptr && !moved->has_arrived()) {
+      share = bounded_share(obstacle_contacts[i], obstacle_distances_[i], *moved, rods.positions,
+                            displacements, max_loss, share);
+      continue;
+    }
     share = bounded_share(obstacle_contacts[i], obstacle_distances_[i], rods.positions,
                           displacements, max_loss, share);
   }
-  for (const ObstacleEdge& edge : obstacle_edges) {
+  for (std::size_t i = 0; i < obstacle_edges.size(); ++i) {
+    const ObstacleEdge& edge = obstacle_edges[i];
     double& share = shares[islands[edge.rod]];
-    share = bounded_share(rods, edge, displacements, share);
+    const MovedShape* const moved = moved_ != nullptr ? moved_->of_edge(i) : nullptr;
+    share = moved != nullptr
+                ? bounded_share(edge.edge, *moved, rods.positions, displacements, max_loss, share)
+                : bounded_share(rods, edge, displacements, share);
   }
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const EdgePair& pair = pairs[i];

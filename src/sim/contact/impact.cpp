@@ -92,7 +92,8 @@ Mobilities mobilities(const Impact& impact, const Rods& rods) {
 
 /// The velocity with which the sides slide on each other where friction acts [m/s].
 Vector3d slip_velocity(const Impact& impact, const Rods& rods) {
-  Vector3d velocity = difference_of_points(rods.velocities, impact.points);
+  Vector3d velocity =
+      difference_of_points(rods.velocities, impact.points) - impact.obstacle_velocity;
   if (impact.levers) {
     velocity += lever_motion(*impact.levers, impact.points, rods.velocities, rods.spins);
   }
@@ -105,7 +106,8 @@ void resolve(Rods& rods, double coefficient, std::vector<Impact>& impacts) {
   constexpr int max_iterations = 200;
   constexpr double max_change = 1e-6;  // of the largest impulse
   const auto speed_along = [&rods](const Impact& impact) {
-    return difference_of_points(rods.velocities, impact.points).dot(impact.normal);
+    return (difference_of_points(rods.velocities, impact.points) - impact.obstacle_velocity)
+        .dot(impact.normal);
   };
   std::vector<Mobilities> by_impact;
   for (Impact& impact : impacts) {

@@ -34,8 +34,10 @@ struct Impact {
   /// only not approach each other faster.
   bool has_begun;
 
-  double separation;      ///< speed with which the sides part at least; set if it has begun [m/s]
-  double pressure = 0.0;  ///< impulse along the normal [N s] >= 0
+  double separation;  ///< speed with which the sides part at least; set if it has begun [m/s]
+  Eigen::Vector3d obstacle_velocity = Eigen::Vector3d::Zero();  ///< of b, if that moves [m/s]
+
+  double pressure = 0.0;                               ///< impulse along the normal [N s] >= 0
   Eigen::Vector3d friction = Eigen::Vector3d::Zero();  ///< impulse on a across it [N s]
 };
 

@@ -154,34 +154,6 @@ struct EdgePart {
   }
 };
 
-/// Whether tangents prove that the distance does not fall below a floor while the ends of an edge
-/// move. A tangent's bound at a place is linear in time: where it is above the floor before and
-/// after the motion, it is so all the way. So each place needs one tangent that is above at both
-/// times.
-bool stays_above(double floor, const ObstacleDistance& distance, const Vector3d& edge,
-                 const std::array<Vector3d, 2>& ways) {
-  std::array<EdgePart, 3> safe;
-  const std::size_t count = distance.weight > 0.0 ? 3 : 2;
-  const auto keep = [&](EdgePart& part, double s, const PointDistance& found) {
-    part.keep(tangent(s, found, edge), floor);
-    part.keep(tangent(s, found, edge, ways), floor);
-  };
-  keep(safe[0], 0.0, distance.ends[0]);
-  keep(safe[1], 1.0, distance.ends[1]);
-  if (count == 3) {
-    keep(safe[2], distance.s, distance.nearest);
-  }
-  double reached = 0.0;
-  for (std::size_t round = 0; round < count; ++round) {
-    for (std::size_t i = 0; i < count; ++i) {
-      if (safe[i].first <= reached) {
-        reached = std::max(reached, safe[i].last);
-      }
-    }
-  }
-  return reached >= 1.0;
-}
-
 std::uint32_t node_of(const ObstacleContact& contact) {
   return contact.edge + (contact.part == ObstacleContact::Part::LAST_NODE ? 1 : 0);
 }
@@ -208,6 +180,30 @@ double turning_of(const ObstacleContact& contact, const ObstacleDistance& distan
 }
 
 }  // namespace
+
+bool stays_above(double floor, const ObstacleDistance& distance, const Vector3d& edge,
+                 const std::array<Vector3d, 2>& ways) {
+  std::array<EdgePart, 3> safe;
+  const std::size_t count = distance.weight > 0.0 ? 3 : 2;
+  const auto keep = [&](EdgePart& part, double s, const PointDistance& found) {
+    part.keep(tangent(s, found, edge), floor);
+    part.keep(tangent(s, found, edge, ways), floor);
+  };
+  keep(safe[0], 0.0, distance.ends[0]);
+  keep(safe[1], 1.0, distance.ends[1]);
+  if (count == 3) {
+    keep(safe[2], distance.s, distance.nearest);
+  }
+  double reached = 0.0;
+  for (std::size_t round = 0; round < count; ++round) {
+    for (std::size_t i = 0; i < count; ++i) {
+      if (safe[i].first <= reached) {
+        reached = std::max(reached, safe[i].last);
+      }
+    }
+  }
+  return reached >= 1.0;
+}
 
 ObstacleDistance obstacle_distance(const ObstacleContact& contact,
                                    const std::vector<Vector3d>& positions) {

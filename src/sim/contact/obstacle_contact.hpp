@@ -12,6 +12,8 @@
 
 namespace fiber {
 
+struct MovingShape;
+
 /// A shape of an object of the environment, where it is in the world.
 struct ObstacleShape {
   ObstacleShape(const Shape& own, const Eigen::Isometry3d& in_world, std::uint32_t its_object = 0)
@@ -26,7 +28,8 @@ struct ObstacleShape {
   const Shape* shape;
   Eigen::Isometry3d pose;
   Eigen::Isometry3d to_shape;
-  std::uint32_t object;  ///< index in the environment
+  std::uint32_t object;                 ///< index in the environment
+  const MovingShape* moving = nullptr;  ///< null where it stands still
 };
 
 /// A convex part of a shape: all of it, a triangle of a mesh, or a cell of an octree.
@@ -44,6 +47,12 @@ class ObstaclePiece {
 
   /// The object that it is a part of.
   std::uint32_t object() const { return shape_->object; }
+
+  const ObstacleShape& shape() const { return *shape_; }
+
+  /// Makes it a piece of the same shape elsewhere.
+  /// @param shape must outlive this
+  void place_at(const ObstacleShape& shape) { shape_ = &shape; }
 
   /// Where on a segment it is nearest, in [0, 1].
   double nearest_parameter(const Eigen::Vector3d& p0, const Eigen::Vector3d& p1) const;
@@ -94,6 +103,15 @@ ObstacleDistance obstacle_distance(const ObstacleContact& contact,
 /// @returns energy [J], infinite where a distance has reached its least value
 double obstacle_contact(const ObstacleContact& contact, const ObstacleDistance& distance,
                         std::vector<DistanceTerm>* terms);
+
+/// Whether tangents prove that the distance of an edge does not fall below a floor while its ends
+/// move. A tangent's bound at a place is linear in time: where it is above the floor before and
+/// after the motion, it is so all the way. So each place needs one tangent that is above at both
+/// times.
+/// @param edge from its first end to its last, before the motion
+/// @param ways of its ends
+bool stays_above(double floor, const ObstacleDistance& distance, const Eigen::Vector3d& edge,
+                 const std::array<Eigen::Vector3d, 2>& ways);
 
 /// Shortens a share of a step so that the distance loses no more than a part of its excess over the
 /// least one. This is proven: distances from convex pieces are nowhere below their tangent planes.

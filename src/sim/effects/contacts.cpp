@@ -6,6 +6,7 @@
 
 #include "src/sim/contact/contact_neighbours.hpp"
 #include "src/sim/contact/contact_set.hpp"
+#include "src/sim/effects/doubled_fibers.hpp"
 #include "src/sim/require.hpp"
 #include "src/sim/solver/step_bound.hpp"
 
@@ -196,28 +197,6 @@ EdgePair FiberContact::candidate(const Rods& rods, const Contact& contact) const
   return pair;
 }
 
-namespace {
-
-std::vector<Vector3d> doubled(const std::vector<Vector3d>& points) {
-  std::vector<Vector3d> doubled;
-  doubled.reserve(2 * points.size());
-  for (const Vector3d& point : points) {
-    doubled.push_back(point);
-    doubled.push_back(point);
-  }
-  return doubled;
-}
-
-/// Edges first to last, and the nodes at their ends, as segments of the doubled fibres.
-AllowedPair doubled(const AllowedPair& pair) {
-  AllowedPair doubled = pair;
-  doubled.first_segment = 2 * pair.first_segment + (pair.first_segment < 0 ? -1 : 0);
-  doubled.last_segment = 2 * pair.last_segment + (pair.last_segment < 0 ? 1 : 2);
-  return doubled;
-}
-
-}  // namespace
-
 EnvironmentContact::EnvironmentContact(std::shared_ptr<const Environment> environment,
                                        const Options& options)
     : environment_(std::move(environment)), options_(options) {
@@ -243,11 +222,7 @@ void EnvironmentContact::place_fibers(const Rods& rods) {
     fibers_.update_points(doubled(rods.positions));
     return;
   }
-  std::vector<std::uint32_t> offsets = rods.offsets;
-  for (std::uint32_t& offset : offsets) {
-    offset *= 2;
-  }
-  fibers_ = FiberAssembly(doubled(rods.positions), offsets, rods.radii);
+  fibers_ = doubled_fibers(rods);
 }
 
 void EnvironmentContact::find(const Rods& rods, const TravelBound& bound, ContactSet& found) {

@@ -10,6 +10,7 @@
 #include "fiber_proximity/sim/contacts.hpp"
 #include "src/sim/scene/joints.hpp"
 #include "src/sim/scene/keys.hpp"
+#include "src/sim/scene/obstacle_motion.hpp"
 #include "src/sim/scene/parts.hpp"
 #include "src/sim/scene/times.hpp"
 #include "src/text/join.hpp"
@@ -230,9 +231,18 @@ std::unique_ptr<Contacts> make_contacts(const SimDescription& description, SimSc
         description.environment,
         EnvironmentContact::Options{stiffness, description.allowed, restitution});
   });
+  std::shared_ptr<ObstacleMotions> motions;
+  if (!description.moving_obstacles.empty()) {
+    add("environment_contact", [&](double stiffness, double restitution) {
+      motions = make_obstacle_motions(description, scene);
+      return std::make_unique<MovingObstacleContact>(
+          motions, EnvironmentContact::Options{stiffness, description.allowed, restitution});
+    });
+  }
   auto friction = make_adjustable(description, "friction", make_friction, scene);
   return sources.empty() ? nullptr
-                         : std::make_unique<Contacts>(std::move(sources), std::move(friction));
+                         : std::make_unique<Contacts>(std::move(sources), std::move(friction),
+                                                      std::move(motions));
 }
 
 }  // namespace

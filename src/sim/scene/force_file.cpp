@@ -61,6 +61,9 @@ void ForceWriter::write(std::int64_t frame, const Rods& rods, const RodForces& f
   for (const RodForces::LoadForce& load : forces.loads) {
     add_row("load", load.rod, load.node, load.force, load.moment);
   }
+  for (const RodForces::ObstacleForce& obstacle : forces.obstacles) {
+    add_row("obstacle", 0, obstacle.object, obstacle.force, obstacle.moment);
+  }
   file_.write(rows);
 }
 

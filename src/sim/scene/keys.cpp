@@ -40,7 +40,7 @@ SceneMap settings_map() {
        other_key("effects", "a list of effects, each at most once", needed, "", "see below"),
        other_key("environment", "a map of `obstacles` and `allowed`", "", "",
                  "what is around the fibres, as in the node's `~scene` "
-                 "([environment.md](environment.md)); nothing in it moves"),
+                 "([environment.md](environment.md)); those with a `motion` move"),
        other_key("initial_overlap", "`refuse` or `separate`", "refuse", "",
                  "what is done with fibres that begin inside of something"),
        number_key("max_strain", {0.0, 10.0, true, false}, text_of(by_default.max_strain), "",
@@ -137,6 +137,36 @@ std::vector<SceneMap> shape_maps() {
        {center, number_key("size", above_0, needed, "m", "its width")}}};
 }
 
+std::vector<SceneMap> obstacle_maps() {
+  return {
+      {"obstacle motion",
+       "The key `motion` of an obstacle of `environment`. Fibres give way to it; where they "
+       "cannot, "
+       "it stays behind.",
+       false,
+       {other_key(
+            "path", "a list of at least one entry", "", "",
+            "where it goes, in place of `frame`; see below. No point of it may be faster than "
+            "1000 m/s"),
+        other_key("period", "a number above the last time", "", "s",
+                  "after which the path begins again, to where it leads back from its last entry"),
+        other_key("axis", a_direction, "[0, 0, 1]", "",
+                  "about which `angle` turns it, in its own frame"),
+        other_key("frame", "a string", "", "",
+                  "of tf, that carries it: `pose` is in this frame; for cable_sim")}},
+      {"obstacle waypoint",
+       "An entry of the list `path` of a motion. What is not given stays as it was, to begin with "
+       "as "
+       "the obstacle's `pose` has it; in between straight lines, and turns at constant rates.",
+       false,
+       {other_key("time", "a number above the time before", needed, "s", "0 for the first one"),
+        other_key("position", three_numbers, "", "m", "of its origin"),
+        other_key("orientation", "four numbers, a quaternion x y z w", "", "",
+                  "it turns the shorter way round"),
+        other_key("angle", "a number", "0", "rad",
+                  "by which it is turned beyond that, about `axis`: a drum winds by many turns")}}};
+}
+
 }  // namespace
 
 bool KeyLimits::contain(double value) const {
@@ -156,7 +186,7 @@ std::string KeyLimits::text() const {
 const std::vector<SceneMap>& scene_maps() {
   static const std::vector<SceneMap> maps = [] {
     std::vector<SceneMap> all{settings_map()};
-    for (const auto& some : {fiber_maps(), shape_maps(), effect_maps()}) {
+    for (const auto& some : {fiber_maps(), shape_maps(), obstacle_maps(), effect_maps()}) {
       all.insert(all.end(), some.begin(), some.end());
     }
     return all;

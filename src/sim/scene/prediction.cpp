@@ -105,7 +105,11 @@ class Observer {
     engine_->update(fibers_);
     engine_->query(query_, result_);
     add_clearances(false);
-    scene_.environment->query(fibers_, query_, {}, result_);
+    if (scene_.motions() == nullptr) {
+      scene_.environment->query(fibers_, query_, {}, result_);
+    } else {
+      Environment(scene_.objects()).query(fibers_, query_, {}, result_);
+    }
     add_clearances(true);
     add_forces(scene_.stepper->forces());
     prediction_.time = time();

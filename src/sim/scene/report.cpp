@@ -129,7 +129,7 @@ std::vector<std::string> omissions(const SimScene& scene) {
   if (!scene.real_time_warning.empty()) {
     found.push_back(scene.real_time_warning);
   }
-  const std::size_t obstacles = scene.environment->objects().size();
+  const std::size_t obstacles = scene.environment->objects().size() + scene.moving_count;
   if (obstacles > 0 && !scene.has_effect("environment_contact")) {
     found.push_back(format("fibres pass through the ", obstacles,
                            " obstacle(s): the effect environment_contact is not named"));
@@ -193,6 +193,19 @@ void warn_of_lag(const SimScene& scene, std::vector<SimWarning>& warnings) {
               lag->distance, " m behind: something keeps it, or it moves too fast")});
 }
 
+void warn_of_obstacle_lag(const SimScene& scene, std::vector<SimWarning>& warnings) {
+  const ObstacleMotions* const motions = scene.motions();
+  const std::optional<ObstacleLag> lag =
+      motions == nullptr ? std::nullopt : motions->longest_lag(scene.stepper->time());
+  if (lag) {
+    warnings.push_back(
+        {SimWarning::Kind::OBSTACLE,
+         format("obstacle ", quote(motions->obstacles()[lag->obstacle].object.name), " is ",
+                lag->distance, " m and ", lag->angle,
+                " rad behind its motion: fibres between it and something else cannot give way")});
+  }
+}
+
 void warn_of_balance(const SimScene& scene, std::vector<SimWarning>& warnings) {
   const StepReport& report = scene.stepper->report();
   if (report.unbalanced == 0 || scene.asks_for_few_iterations()) {
@@ -213,6 +226,7 @@ std::vector<SimWarning> frame_warnings(const SimScene& scene) {
   std::vector<SimWarning> warnings;
   warn_of_strain(scene, warnings);
   warn_of_lag(scene, warnings);
+  warn_of_obstacle_lag(scene, warnings);
   warn_of_balance(scene, warnings);
   return warnings;
 }

@@ -39,11 +39,12 @@ SimReport report(const SimScene& scene, const SimTrial& trial);
 /// A problem after a frame.
 struct SimWarning {
   enum class Kind {
-    STRAIN,  ///< an edge is stretched by more than `max_strain`
-    LAG,     ///< a hold pulls with its greatest force and is not followed
-    BALANCE  ///< forces do not balance to `residual`; not of scenes that ask for few iterations
+    STRAIN,    ///< an edge is stretched by more than `max_strain`
+    LAG,       ///< a hold pulls with its greatest force and is not followed
+    OBSTACLE,  ///< a moving obstacle is kept from its way
+    BALANCE    ///< forces do not balance to `residual`; not of scenes that ask for few iterations
   };
-  static constexpr std::size_t kinds = 3;
+  static constexpr std::size_t kinds = 4;
 
   Kind kind;
   std::string text;  ///< names fibre, place, value and limit

@@ -10,6 +10,7 @@
 #include "src/sim/overlaps.hpp"
 #include "src/sim/scene/joints.hpp"
 #include "src/sim/scene/keys.hpp"
+#include "src/sim/scene/obstacle_motion.hpp"
 #include "src/sim/scene/parts.hpp"
 #include "src/sim/scene/reach.hpp"
 #include "src/sim/scene/resolution.hpp"
@@ -114,7 +115,7 @@ OverlapFinder make_finder(const SimDescription& scene) {
   options.same_fiber = scene.has_effect("self_contact");
   options.different_fibers = scene.has_effect("fiber_contact");
   if (scene.has_effect("environment_contact")) {
-    options.environment = scene.environment;
+    options.environment = environment_at_start(scene);
     options.allowed = scene.allowed;
   }
   return OverlapFinder(options);
@@ -132,8 +133,8 @@ std::string describe(const std::vector<Overlap>& overlaps, const SimDescription&
   double touching = radius_of(contact.fiber_a, contact.segment_a);
   std::string other;
   if (deepest.is_object) {
-    other = format("obstacle ", quote(scene.environment->objects()[contact.fiber_b].name), ": ",
-                   segment_a, " is ");
+    other = format("obstacle ", quote(environment_at_start(scene)->objects()[contact.fiber_b].name),
+                   ": ", segment_a, " is ");
   } else {
     const SimFiber& b = scene.fibers[contact.fiber_b];
     touching += radius_of(contact.fiber_b, contact.segment_b);
@@ -219,7 +220,7 @@ void read_stepper_options(const YamlField& document, StepperOptions& options) {
   }
 }
 
-/// Reads the obstacles of a scene, which are all in its frame: nothing moves them.
+/// Reads the obstacles of a scene, which are all in its frame.
 /// @returns what may touch, by names
 EnvironmentScene read_environment(const std::optional<YamlField>& field, const MeshSource& meshes,
                                   SimDescription& scene) {
@@ -227,7 +228,8 @@ EnvironmentScene read_environment(const std::optional<YamlField>& field, const M
   if (!field && contact != nullptr) {
     throw std::invalid_argument(contact->place + ": the scene has no environment to touch");
   }
-  const EnvironmentScene read = field ? read_environment_scene(*field, meshes) : EnvironmentScene();
+  const EnvironmentScene read =
+      field ? read_environment_scene(*field, meshes, true) : EnvironmentScene();
   std::vector<EnvironmentObject> objects;
   for (const SceneObstacle& obstacle : read.obstacles) {
     if (!obstacle.frame_id.empty() && obstacle.frame_id != scene.frame_id) {
@@ -235,9 +237,14 @@ EnvironmentScene read_environment(const std::optional<YamlField>& field, const M
                                   " is in frame " + quote(obstacle.frame_id) +
                                   ", it must be in the scene's, " + quote(scene.frame_id));
     }
-    objects.push_back(obstacle.object);
+    if (obstacle.motion) {
+      scene.moving_obstacles.push_back(read_obstacle_motion(obstacle));
+    } else {
+      objects.push_back(obstacle.object);
+    }
   }
   scene.environment = std::make_shared<const Environment>(std::move(objects));
+  scene.moving_count = scene.moving_obstacles.size();
   return read;
 }
 
@@ -334,6 +341,7 @@ SimScene copy_sim_scene(const SimDescription& description, const SimScene& scene
     copy.attachment->redirect(hold, [own](double time) { return placement_at(*own, time); });
     copy.paths.emplace(hold, own);
   }
+  copy_obstacle_frames(scene, copy);
   return copy;
 }
 

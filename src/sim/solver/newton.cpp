@@ -73,13 +73,17 @@ std::optional<double> NewtonSolver::solve(Rods& rods, const Problem& problem) {
   if (problem.travel_bound != nullptr) {
     bound_.begin(problem.travel_bound, static_cast<std::uint32_t>(states_.size()));
   }
+  stuck_objects_.clear();
   if (problem.contacts != nullptr) {
+    if (problem.has_moving_obstacles) {
+      problem.contacts->begin_motion(scratch_->islands, states_.size());
+    }
     problem.contacts->begin(rods, problem.friction, problem.origins, problem.step);
   }
   evaluate_energies(rods, problem);
   find_stored_energies(problem, max_kinetic_);
   const double stored_before = std::accumulate(max_kinetic_.begin(), max_kinetic_.end(), 0.0);
-  if (!predict(rods, problem)) {
+  if (!predict(rods, problem) || !move_obstacles(rods, problem)) {
     return std::nullopt;
   }
   for (std::uint32_t iteration = 0;; ++iteration) {
@@ -106,13 +110,12 @@ std::optional<double> NewtonSolver::solve(Rods& rods, const Problem& problem) {
       states_[i].is_active = states_[i].is_active && !accepted.has_failed;
     }
   }
-  std::vector<Impact> impacts;
-  if (problem.contacts != nullptr) {
-    impacts = problem.contacts->find_impacts(rods);
-  }
+  const std::vector<Impact> impacts =
+      problem.contacts != nullptr ? problem.contacts->find_impacts(rods) : std::vector<Impact>{};
   has_impacts_ = !impacts.empty();
   // An impact gives back no more than what the first minimum has taken.
   find_stored_energies(problem, stored_);
+  double work = obstacle_work(rods, problem);  // which may be given back as well
   if (has_impacts_) {
     const std::vector<double> kinetic = kinetic_energies(rods);
     for (std::size_t i = 0; i < kinetic.size(); ++i) {
@@ -125,9 +128,9 @@ std::optional<double> NewtonSolver::solve(Rods& rods, const Problem& problem) {
     return std::nullopt;
   }
   if (has_impacts_ && problem.has_start_rates) {
-    resolve_impacts(rods, problem, impacts);
+    work += resolve_impacts(rods, problem, impacts);
   }
-  return std::accumulate(stored_.begin(), stored_.end(), 0.0) - stored_before;
+  return std::accumulate(stored_.begin(), stored_.end(), 0.0) - stored_before - work;
 }
 
 /// Sums the incremental potential where the rods are, by island.

@@ -47,6 +47,7 @@ class NewtonSolver {
     const Friction* friction;         ///< null for none
     FrictionOrigins origins;          ///< where the slips of friction are measured from
     bool has_start_rates;  ///< measured from the start: only such a step resolves its impacts
+    bool has_moving_obstacles = false;                           ///< in the scene
     const JointParts* joints = nullptr;                          ///< null for none
     const std::vector<const JointCluster*>* clusters = nullptr;  ///< of joints, of these rods
   };
@@ -75,6 +76,11 @@ class NewtonSolver {
 
   /// Whether the last solve found impacts.
   bool has_impacts() const { return has_impacts_; }
+
+  /// Of a solve that gave no result: the obstacles that have stayed behind as rods could not give
+  /// way, by index, and the part of their way that they came. Empty where that was not the reason.
+  const std::vector<std::uint32_t>& stuck_objects() const { return stuck_objects_; }
+  double stuck_progress() const { return stuck_progress_; }
 
   /// The forces of joints on their nodes at the end of the last solve.
   const std::vector<JointSolver::NodeForce>& joint_forces() const { return joint_solver_.forces(); }
@@ -112,8 +118,14 @@ class NewtonSolver {
   void sum_energies(const Problem& problem);
   void find_stored_energies(const Problem& problem, std::vector<double>& stored) const;
   std::vector<double> kinetic_energies(const Rods& rods) const;
-  void resolve_impacts(Rods& rods, const Problem& problem, const std::vector<Impact>& impacts);
+  double resolve_impacts(Rods& rods, const Problem& problem, const std::vector<Impact>& impacts);
   bool predict(Rods& rods, const Problem& problem);
+  bool move_obstacles(Rods& rods, const Problem& problem);
+  void begin_drives(const Rods& rods, const Problem& problem);
+  void raise_drives(const Rods& rods, const Problem& problem);
+  void keep_stuck(const MovedShapes& moved);
+  void move_with_obstacles(Rods& rods, const Problem& problem);
+  double obstacle_work(const Rods& rods, const Problem& problem);
   void assemble(Rods& rods, const Problem& problem);
   void add_joints_to_step(const Problem& problem);
   void check_convergence(Rods& rods, const Problem& problem, std::uint32_t iteration);
@@ -137,9 +149,13 @@ class NewtonSolver {
   std::vector<EnergySum> energies_;    // by island, where its rods are
   std::vector<double> decreases_;      // by island
   bool has_impacts_ = false;
-  std::vector<double> stored_;        // energy at the end of the solve, by island [J]
-  std::vector<double> max_kinetic_;   // energy after impacts, by island [J]
-  std::vector<double> trial_shares_;  // of the step, by island: bounds, then those accepted
+  std::vector<std::uint32_t> stuck_objects_;
+  double stuck_progress_ = 1.0;
+  std::vector<double> drives_;         // of obstacles, by island [J]
+  std::vector<double> obstacle_work_;  // in the solve, by island [J]
+  std::vector<double> stored_;         // energy at the end of the solve, by island [J]
+  std::vector<double> max_kinetic_;    // energy after impacts, by island [J]
+  std::vector<double> trial_shares_;   // of the step, by island: bounds, then those accepted
   std::vector<SimdBatch> step_;
 
   // Buffers of correct_short_steps(), so that a step allocates nothing: by island, and by pack.

@@ -107,10 +107,21 @@ class StruckPlaces {
   std::map<std::int32_t, Place> places_;
 };
 
+/// The work of moving obstacles by some impacts [J].
+double work_of(const std::vector<Impact>& impacts) {
+  double work = 0.0;
+  for (const Impact& impact : impacts) {
+    work += (impact.pressure * impact.normal + impact.friction).dot(impact.obstacle_velocity);
+  }
+  return work;
+}
+
 /// The largest part, up to 1, of a change of velocities and spins that adds no more kinetic energy
 /// than is allowed [J].
-double allowed_share(const std::vector<StruckNode>& nodes, const Rods& after, double allowed) {
-  double linear = 0.0;  // the energy by the share y is y linear + y² square
+/// @param work of obstacles by all of the change [J]
+double allowed_share(const std::vector<StruckNode>& nodes, const Rods& after, double allowed,
+                     double work) {
+  double linear = -work;  // the energy by the share y is y linear + y² square
   double square = 0.0;
   for (const StruckNode& before : nodes) {
     const double mass = after.masses[before.node];
@@ -149,10 +160,12 @@ std::vector<double> NewtonSolver::kinetic_energies(const Rods& rods) const {
 
 /// Changes velocities and spins by the impacts of each island, which give back no more energy than
 /// the solve has taken.
-void NewtonSolver::resolve_impacts(Rods& rods, const Problem& problem,
-                                   const std::vector<Impact>& impacts) {
+/// @returns the work of moving obstacles by them [J]
+double NewtonSolver::resolve_impacts(Rods& rods, const Problem& problem,
+                                     const std::vector<Impact>& impacts) {
   const double coefficient = problem.friction != nullptr ? problem.friction->coefficient() : 0.0;
   const std::vector<double> kinetic = kinetic_energies(rods);
+  double work = 0.0;
   for (std::uint32_t island = 0; island < states_.size(); ++island) {
     std::vector<Impact> own;
     std::copy_if(
@@ -169,8 +182,8 @@ void NewtonSolver::resolve_impacts(Rods& rods, const Problem& problem,
     } else {
       resolve(rods, coefficient, own);
     }
-    const double share =
-        allowed_share(before, rods, std::max(0.0, max_kinetic_[island] - kinetic[island]));
+    const double share = allowed_share(
+        before, rods, std::max(0.0, max_kinetic_[island] - kinetic[island]), work_of(own));
     for (const StruckNode& each : before) {
       Vector3d& velocity = rods.velocities[each.node];
       velocity = each.velocity + share * (velocity - each.velocity);
@@ -183,9 +196,11 @@ void NewtonSolver::resolve_impacts(Rods& rods, const Problem& problem,
       impact.pressure *= share;
       impact.friction *= share;
     }
+    work += work_of(own);
     problem.contacts->add_impacts(own);
     reports_[island].impacts = static_cast<std::uint32_t>(own.size());
   }
+  return work;
 }
 
 }  // namespace fiber

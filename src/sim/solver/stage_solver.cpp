@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 
+#include "fiber_proximity/sim/moving_obstacles.hpp"
 #include "src/query/threads.hpp"
 
 namespace fiber {
@@ -80,9 +81,14 @@ void StageSolver::solve(Rods& rods, const Effects& effects, const TimeStep& stag
       group.is_solved = false;
     }
     travel_bound_.is_final = false;
+    ObstacleMotions* const obstacles = contacts_ != nullptr ? contacts_->motions() : nullptr;
     if (contacts_ != nullptr) {
       predict_motion(reference_, stage.length);
     }
+    if (obstacles != nullptr) {
+      obstacles->begin_solve(stage.end());
+    }
+    std::uint32_t times_stuck = 0;
     bool is_solved = false;
     while (!is_solved) {
       if (contacts_ != nullptr) {
@@ -98,9 +104,15 @@ void StageSolver::solve(Rods& rods, const Effects& effects, const TimeStep& stag
       is_solved = std::all_of(groups_.begin(), groups_.end(),
                               [](const Group& group) { return group.is_solved; });
       if (!is_solved) {
+        if (obstacles != nullptr) {
+          times_stuck += shorten_obstacle_motions(times_stuck) ? 1 : 0;
+        }
         widen_travel_bound(rods);
         is_at_start_ = false;
       }
+    }
+    if (obstacles != nullptr) {
+      obstacles->end_solve();
     }
     if (contacts_ != nullptr) {
       if (travel_bound_.is_final) {  // widen_travel_bound() has cleared the expected displacements
@@ -225,10 +237,10 @@ void StageSolver::solve_group(Rods& rods, const Effects& effects, double step, G
   const bool bounds =
       travel_bound != nullptr && (!group.contacts.is_empty() || travel_bound->is_final);
   const Friction* const friction = bounds ? contacts_->friction() : nullptr;
-  const std::optional<double> gain =
-      solver->solve(rods, {effects, options_, step, bounds ? &group.contacts : nullptr,
-                           travel_bound, friction, origins_, has_start_rates_,
-                           group.joints.empty() ? nullptr : &joints_->parts(), &group.joints});
+  const std::optional<double> gain = solver->solve(
+      rods, {effects, options_, step, bounds ? &group.contacts : nullptr, travel_bound, friction,
+             origins_, has_start_rates_, bounds && contacts_->motions() != nullptr,
+             group.joints.empty() ? nullptr : &joints_->parts(), &group.joints});
   group.is_solved = gain.has_value();
   group.stored_gain = gain.value_or(0.0);
   group.has_impacts = solver->has_impacts();
@@ -236,6 +248,8 @@ void StageSolver::solve_group(Rods& rods, const Effects& effects, double step, G
       group.joints.empty() ? std::vector<JointSolver::NodeForce>{} : solver->joint_forces();
   group.reports = solver->reports();
   group.needed_travel = solver->step_bound().needed();
+  group.stuck_objects = solver->stuck_objects();
+  group.stuck_progress = solver->stuck_progress();
   solvers_.push(std::move(solver));
 }
 
@@ -292,49 +306,6 @@ void StageSolver::add_to(StepReport& report) const {
     }
   }
   report.iterations += iterations;
-}
-
-/// Calls function(pack) for the packs of all groups, one after the other, where the rods are now.
-template <class Function>
-void StageSolver::for_each_pack(const Rods& rods, const Effects& effects,
-                                const Function& function) {
-  PackStep step;
-  for (const Group& group : groups_) {
-    for (const std::vector<std::uint32_t>& pack : group.packs) {
-      step.assign(rods, pack);
-      step.begin(rods, effects, last_step_);
-      function(step);
-    }
-  }
-}
-
-void StageSolver::add_forces(const Rods& rods, const Effects& effects, RodForces& forces) {
-  for_each_pack(rods, effects, [&](const PackStep& pack) { pack.add_forces(effects, forces); });
-  for (const Group& group : groups_) {
-    group.contacts.add_forces(rods, forces.contacts);
-  }
-  if (joints_ != nullptr) {
-    add_joint_forces(rods, forces);
-  }
-}
-
-double StageSolver::stored_energy(Rods& rods, const Effects& effects) {
-  double energy = 0.0;
-  for_each_pack(rods, effects, [&](PackStep& pack) {
-    pack.evaluate_energies(effects);
-    for (std::size_t lane = 0; lane < pack.rods().used; ++lane) {
-      energy += pack.stored_energy(lane);
-    }
-  });
-  for (Group& group : groups_) {
-    group.contacts.update_distances(rods);
-    group.contacts.evaluate_energies(rods);
-    energy += group.contacts.stored_energy();
-  }
-  if (joints_ != nullptr) {
-    energy += joints_->stored_energy(rods);
-  }
-  return energy;
 }
 
 }  // namespace fiber

@@ -90,11 +90,15 @@ class StageSolver {
     std::vector<IslandReport> reports;
     double stored_gain = 0.0;  // of energy in the solve [J]
     std::vector<std::pair<std::uint32_t, double>> needed_travel;
+    std::vector<std::uint32_t> stuck_objects;
+    double stuck_progress = 1.0;
     bool has_impacts = false;
     bool is_solved = false;
   };
 
   void add_joint_forces(const Rods& rods, RodForces& forces) const;
+  void add_obstacle_forces(const Rods& rods, RodForces& forces) const;
+  bool shorten_obstacle_motions(std::uint32_t times);
   void reset_islands(const Rods& rods);
   void find_contacts(Rods& rods);
   void make_groups(const Rods& rods);

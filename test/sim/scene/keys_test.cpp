@@ -142,6 +142,17 @@ std::string scene_with(const SceneMap& map, const std::string& key, const std::s
     const std::string table = "table: [" + with(others({{"time", "0"}})) + "]";
     effects = key == "acceleration" ? "{gravity: {" + table + "}}"
                                     : "twist, {load: [{fiber: a, node: last, " + table + "}]}";
+  } else if (map.name.rfind("obstacle", 0) == 0) {
+    const std::string waypoint =
+        map.name == "obstacle waypoint" ? with(others({{"time", "0"}})) : "{time: 0}";
+    const std::string path = "path: [" + waypoint + "]";
+    environment =
+        ", environment: {obstacles: [{id: ball, primitives: [{type: sphere, dimensions: [1]}], "
+        "motion: " +
+        (map.name == "obstacle waypoint"   ? "{" + path + "}"
+         : key == "path" || key == "frame" ? with("")
+                                           : with(path)) +
+        "}]}";
   } else {
     EXPECT_TRUE(map.is_effect) << "this test knows no scene with " << map.name;
     effects = map.name == "gravity" ? "stretch" : effects;

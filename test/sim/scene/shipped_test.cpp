@@ -36,6 +36,7 @@ TEST_P(ShippedScene, RunsAndKeepsItsFibresWhole) {
 // to its full residual.
 INSTANTIATE_TEST_SUITE_P(Scenes, ShippedScene,
                          ::testing::Values(Shipped{"capstan", 0.03}, Shipped{"demo", 0.03},
+                                           Shipped{"drum", 0.03}, Shipped{"gripper", 0.03},
                                            Shipped{"hanging_cable", 0.03},
                                            Shipped{"harness", 0.035}, Shipped{"hose", 0.03},
                                            Shipped{"joined", 0.03}, Shipped{"knot", 0.03},

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,8 @@ MeshSource mesh_files(const std::filesystem::path& folder);
 struct SceneObstacle {
   std::string frame_id;  ///< empty: that of the fibres
   EnvironmentObject object;
+  std::string place;                ///< in the document, for errors
+  std::optional<YamlField> motion;  ///< how it moves, where that may be told
 };
 
 /// Obstacles around the fibres from the start.
@@ -53,8 +56,10 @@ struct EnvironmentScene {
 /// messages Obstacle and AllowedPair, but `frame_id` stands for the header; vectors are lists of
 /// three numbers, quaternions of four, x y z w. Primitives have the names box, sphere, cylinder or
 /// cone as type; meshes may be `{resource: file:///..., scale: [1, 1, 1]}`.
+/// @param may_move whether obstacles may have the key `motion`, which the caller reads
 /// @throws std::invalid_argument naming file, line, field and value, or the obstacle, and what is
 ///         allowed
-EnvironmentScene read_environment_scene(const YamlField& document, const MeshSource& meshes);
+EnvironmentScene read_environment_scene(const YamlField& document, const MeshSource& meshes,
+                                        bool may_move = false);
 
 }  // namespace fiber

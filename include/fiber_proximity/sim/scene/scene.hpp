@@ -13,6 +13,7 @@
 #include "fiber_proximity/sim/attachment.hpp"
 #include "fiber_proximity/sim/joints.hpp"
 #include "fiber_proximity/sim/loads.hpp"
+#include "fiber_proximity/sim/moving_obstacles.hpp"
 #include "fiber_proximity/sim/stepper.hpp"
 #include "fiber_proximity/yaml/yaml_field.hpp"
 
@@ -28,13 +29,14 @@ struct SimSettings {
   StepperOptions options;
   std::optional<double> accuracy;  ///< for which segments and substeps were chosen; none: given
   bool has_contacts = false;
-  double fastest_hold = 0.0;  ///< on a path [m/s]
+  std::size_t moving_count = 0;  ///< of obstacles that move
+  double fastest_hold = 0.0;     ///< on a path [m/s]
 
   /// The strain up to which holds may stretch fibres where the scene does not give their paths:
   /// those of ~attach, handles and frames of tf.
   double max_strain = 0.1;
 
-  std::shared_ptr<const Environment> environment;  ///< never null
+  std::shared_ptr<const Environment> environment;  ///< what stands still; never null
 
   /// Sentences: what materials leave open, and what is taken for it.
   std::vector<std::string> material_defaults;
@@ -107,6 +109,27 @@ struct SimLoad {
   std::vector<std::string> parameters;  ///< force, moment, torque: those that are given once
 };
 
+/// The pose of an obstacle at a time.
+struct SimObstacleWaypoint {
+  double time;               ///< [s]
+  Eigen::Vector3d position;  ///< of its origin [m]
+  Eigen::Quaterniond orientation;
+  double angle;  ///< by which it is turned beyond that about the axis of the motion [rad]
+};
+
+/// An obstacle that moves.
+struct SimMovingObstacle {
+  std::string place;
+  EnvironmentObject object;
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< of `angle`, in the object's frame
+  std::vector<SimObstacleWaypoint> path;            ///< times rise from 0; never empty
+  bool is_periodic = false;          ///< from the last waypoint on, the path begins again
+  std::optional<std::string> frame;  ///< of tf, in which the only waypoint is
+
+  /// Where it is on its path at a time [s].
+  Eigen::Isometry3d pose_at(double time) const;
+};
+
 /// A joint of nodes.
 struct SimJoint {
   std::string place;
@@ -123,6 +146,7 @@ struct SimDescription : SimSettings {
   std::vector<SimHold> holds;
   std::vector<SimLoad> loads;
   std::vector<SimJoint> joints;
+  std::vector<SimMovingObstacle> moving_obstacles;
   AllowedPairs allowed;             ///< fibres and objects that may touch
   bool separates_overlaps = false;  ///< moves fibres apart that begin inside of something
 
@@ -188,6 +212,13 @@ using PlacementPath = std::vector<std::pair<double, Placement>>;
 /// at equal rates; before the first and after the last it is that one.
 Placement placement_at(const PlacementPath& path, double time);
 
+/// Poses by time [s], which rises.
+using ObstaclePath = std::vector<std::pair<double, Eigen::Isometry3d>>;
+
+/// The pose at a time: between two of the path on a straight line, turned at a constant rate;
+/// before the first and after the last it is that one.
+Eigen::Isometry3d pose_at(const ObstaclePath& path, double time);
+
 /// A frame of tf that holds a fibre. The held node follows the frame's latest pose.
 struct FollowedFrame {
   std::string frame;
@@ -199,6 +230,15 @@ struct FollowedFrame {
   std::shared_ptr<PlacementPath> path;  ///< in the world, never empty; the hold follows it
 };
 
+/// A frame of tf that an obstacle follows.
+struct FollowedObstacle {
+  std::string frame;
+  std::uint32_t obstacle;  ///< index among those that move
+  std::string what;        ///< the obstacle and its place in the file, for warnings
+  Eigen::Isometry3d in_frame;
+  std::shared_ptr<ObstaclePath> path;  ///< in the world, never empty
+};
+
 /// A scene of the simulation, ready to move.
 struct SimScene : SimSettings {
   explicit SimScene(const SimSettings& settings) : SimSettings(settings) {}
@@ -207,11 +247,22 @@ struct SimScene : SimSettings {
   std::shared_ptr<Attachment> attachment;  ///< one of the stepper's effects; null without it
   std::vector<FollowedFrame> frames;       ///< whose placements are to be kept up to date
 
+  std::vector<FollowedObstacle> obstacle_frames;  ///< alike
+
   /// By hold, as Attachment::add() calls it: of holds whose paths may change.
   std::map<std::uint32_t, std::shared_ptr<const PlacementPath>> paths;
 
   SimParameters parameters;  ///< of its effects
   std::string overlap_note;  ///< the overlaps that were separated at the beginning; empty without
+
+  /// Of the obstacles that move; null where there are none that fibres touch.
+  const ObstacleMotions* motions() const { return stepper->moving_obstacles(); }
+
+  /// All objects where they are now, those that move behind the others: as RodForces counts them.
+  std::vector<EnvironmentObject> objects() const;
+
+  /// The name of one of them.
+  const std::string& object_name(std::uint32_t object) const;
 
   /// The force that the last step has left unbalanced at StepReport::worst [N].
   double residual_force() const;

@@ -1,0 +1,180 @@
+#include <algorithm>
+#include <cmath>
+
+#include "fiber_proximity/sim/moving_obstacles.hpp"
+#include "src/environment/allowed_contacts.hpp"
+#include "src/environment/object_path.hpp"
+#include "src/sim/contact/contact_set.hpp"
+#include "src/sim/effects/doubled_fibers.hpp"
+#include "src/sim/require.hpp"
+#include "src/sim/solver/step_bound.hpp"
+
+namespace fiber {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+/// Looks for the contacts of one solve: of each shape with each rod, whose box tells of most that
+/// there are none.
+class MovingObstacleContact::Finder {
+ public:
+  Finder(const EnvironmentContact::Options& options, const Rods& rods, const TravelBound& bound,
+         ContactSet& found)
+      : options_(options), rods_(rods), bound_(bound), found_(found) {
+    for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
+      WorldBox box;
+      double expected = 0.0;
+      for (std::uint32_t i = rods.first(rod); i < rods.end(rod); ++i) {
+        box.extend(rods.positions[i]);
+        expected = std::max(expected, bound.expected[i].squaredNorm());
+      }
+      boxes_.push_back(box);
+      needed_.push_back(std::sqrt(expected) + bound.by_rod[rod] +
+                        (1.0 + Barrier::half_width) * rods.radii[rod]);
+    }
+    if (!options.allowed.empty()) {
+      fibers_ = doubled_fibers(rods);
+    }
+  }
+
+  /// @param parts that may touch
+  /// @param index of the object in these
+  void find(const ObstacleShape& shape, const AllowedParts* parts, std::uint32_t index) {
+    const ObstacleMotion& motion = *shape.moving->motion;
+    const Isometry3d last = motion.end * shape.moving->in_object;
+    const ObjectPath path(shape.pose, last);
+    const WorldBox box = world_box(*shape.shape, shape.pose);
+    for (std::uint32_t rod = 0; rod < rods_.count(); ++rod) {
+      const double within = needed_[rod] + path.way().norm() + turn_length(shape, path, rod);
+      if (!(boxes_[rod].exteriorDistance(box) > within)) {
+        find_of(shape, rod, within, [&](std::uint32_t element) {
+          return parts != nullptr && parts->holds(fibers_, {rod, element}, index);
+        });
+      }
+    }
+  }
+
+ private:
+  /// By how much the shape's turn may bring it nearer to a rod [m].
+  double turn_length(const ObstacleShape& shape, const ObjectPath& path, std::uint32_t rod) const {
+    if (!path.turns()) {
+      return 0.0;
+    }
+    if (is_bounded(*shape.shape)) {
+      return path.turn_length(reach(*shape.shape));
+    }
+    // What counts of a plane is what is near the rod.
+    const Vector3d origin = shape.pose.translation();
+    const WorldBox& box = boxes_[rod];
+    const double far =
+        (box.max() - origin).cwiseAbs().cwiseMax((origin - box.min()).cwiseAbs()).norm();
+    return path.turn_length(far + needed_[rod] + path.way().norm());
+  }
+
+  /// @param is_allowed whether an element may overlap: of even index nodes, of odd index edges
+  template <class IsAllowed>
+  void find_of(const ObstacleShape& shape, std::uint32_t rod, double within,
+               const IsAllowed& is_allowed) {
+    using Part = ObstacleContact::Part;
+    const bool has_edges = !std::holds_alternative<HalfSpaceShape>(*shape.shape);
+    const std::uint32_t first = rods_.first(rod);
+    const std::uint32_t last = rods_.end(rod) - 1;
+    for (std::uint32_t node = first; node <= last; ++node) {
+      const Vector3d& p0 = rods_.positions[node];
+      if (!is_allowed(2 * (node - first)) && is_near(shape, p0, p0, within)) {
+        const bool is_last = node == last;
+        add(shape, rod, is_last ? node - 1 : node, is_last ? Part::LAST_NODE : Part::FIRST_NODE, p0,
+            p0, within);
+      }
+      if (node == last || !has_edges || is_allowed(2 * (node - first) + 1)) {
+        continue;
+      }
+      const Vector3d& p1 = rods_.positions[node + 1];
+      if (is_near(shape, p0, p1, within)) {
+        found_.obstacle_edges.push_back({rod, node, &shape, 0.0, p0, p0, {p0, p1}});
+        add(shape, rod, node, Part::EDGE, p0, p1, within);
+      }
+    }
+  }
+
+  static bool is_near(const ObstacleShape& shape, const Vector3d& p0, const Vector3d& p1,
+                      double within) {
+    return axis_distance(*shape.shape, shape.to_shape * p0, shape.to_shape * p1, within).lower <=
+           within;
+  }
+
+  void add(const ObstacleShape& shape, std::uint32_t rod, std::uint32_t edge,
+           ObstacleContact::Part part, const Vector3d& p0, const Vector3d& p1, double within) {
+    using Part = ObstacleContact::Part;
+    const std::uint32_t node = part == Part::LAST_NODE ? edge + 1 : edge;
+    const double radius =
+        part == Part::EDGE ? rods_.edge_radius(rod, edge) : rods_.node_radius(rod, node);
+    const double stiffness = options_.stiffness > 0.0
+                                 ? options_.stiffness
+                                 : material_contact_stiffness(rods_.sections[rod], radius);
+    const Barrier barrier = Barrier::around(radius, stiffness);
+    if (shape.is_convex()) {
+      found_.obstacle_contacts.push_back(
+          {rod, edge, part, barrier, options_.restitution, ObstaclePiece(shape, {})});
+      return;
+    }
+    for (const ObstaclePiece& piece : near_pieces(shape, p0, p1, within)) {
+      found_.obstacle_contacts.push_back({rod, edge, part, barrier, options_.restitution, piece});
+    }
+  }
+
+  const EnvironmentContact::Options& options_;
+  const Rods& rods_;
+  const TravelBound& bound_;
+  ContactSet& found_;
+  std::vector<WorldBox> boxes_;  // by rod
+  std::vector<double> needed_;   // by rod: the distance within which it may reach contacts [m]
+  FiberAssembly fibers_;         // the doubled ones, if any pairs are allowed
+};
+
+MovingObstacleContact::MovingObstacleContact(std::shared_ptr<const ObstacleMotions> motions,
+                                             const EnvironmentContact::Options& options)
+    : motions_(std::move(motions)), options_(options) {
+  require_not_negative("environment_contact: the stiffness", options.stiffness, " N/m");
+  require_share("environment_contact: the restitution", options.restitution);
+  if (!options.allowed.empty()) {
+    for (AllowedPair& pair : options_.allowed) {
+      pair = doubled(pair);
+    }
+    std::vector<EnvironmentObject> objects;
+    for (const MovingObstacle& obstacle : motions_->obstacles()) {
+      objects.push_back(obstacle.object);
+    }
+    allowed_ = std::make_unique<const AllowedParts>(options_.allowed, objects);
+  }
+  std::size_t count = 0;
+  for (const MovingObstacle& obstacle : motions_->obstacles()) {
+    count += obstacle.object.shapes.size();
+  }
+  moving_.reserve(count);  // shapes refer to these
+  shapes_.reserve(count);
+  std::uint32_t object = 0;
+  for (const MovingObstacle& obstacle : motions_->obstacles()) {
+    const ObstacleMotion& motion = motions_->motions()[object];
+    for (const PlacedShape& placed : obstacle.object.shapes) {
+      moving_.push_back({&motion, placed.pose});
+      shapes_.emplace_back(placed.shape, motion.start * placed.pose,
+                           motions_->first_index() + object);
+      shapes_.back().moving = &moving_.back();
+    }
+    ++object;
+  }
+}
+
+MovingObstacleContact::~MovingObstacleContact() = default;
+
+void MovingObstacleContact::find(const Rods& rods, const TravelBound& bound, ContactSet& found) {
+  Finder finder(options_, rods, bound, found);
+  for (ObstacleShape& shape : shapes_) {
+    shape.pose = shape.moving->motion->start * shape.moving->in_object;
+    shape.to_shape = shape.pose.inverse(Eigen::Isometry);
+    finder.find(shape, allowed_.get(), shape.object - motions_->first_index());
+  }
+}
+
+}  // namespace fiber

@@ -1,0 +1,163 @@
+// The part of a solve that brings moving obstacles to where they end it.
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "src/sim/solver/newton.hpp"
+
+namespace fiber {
+
+/// Obstacles come along as rods give way: each step of Newton's method is one of both, rods and
+/// what is left of the obstacles' way, and the bound on it knows both motions. So nothing passes,
+/// and what is pushed moves with what pushes it.
+///
+/// As obstacles do work, energy rises on the way. What must fall is its sum with K (1 − p)², by the
+/// progress p: what drives the obstacles. K is at least what brings the rods to their speed, and as
+/// much as the step in hand is to need. From where this ends the rods go on to the minimum of the
+/// potential with the obstacles at their ends.
+/// @returns false if a rod needs a wider travel bound, or obstacles are stuck
+bool NewtonSolver::move_obstacles(Rods& rods, const Problem& problem) {
+  constexpr int max_rounds = 1000;
+  constexpr int patience = 50;     // rounds
+  constexpr double little = 0.01;  // of the way that was left, in so many rounds
+  MovedShapes* const moved =
+      problem.contacts != nullptr ? problem.contacts->moved_shapes() : nullptr;
+  if (moved == nullptr) {
+    return true;
+  }
+  begin_drives(rods, problem);
+  std::vector<double> left(states_.size(), 1.0);  // when patience began
+  for (int round = 0;; ++round) {
+    bool is_any_moving = false;
+    for (std::size_t i = 0; i < states_.size(); ++i) {
+      states_[i].is_active = moved->progress(i) < 1.0;
+      states_[i].scale = 1.0;
+      is_any_moving |= states_[i].is_active;
+    }
+    if (!is_any_moving) {
+      break;
+    }
+    bool is_any_stuck = round == max_rounds;
+    for (std::size_t i = 0; round > 0 && round % patience == 0 && i < states_.size(); ++i) {
+      is_any_stuck |= states_[i].is_active && 1.0 - moved->progress(i) > (1.0 - little) * left[i];
+      left[i] = 1.0 - moved->progress(i);
+    }
+    if (is_any_stuck) {
+      keep_stuck(*moved);
+      return false;
+    }
+    assemble(rods, problem);
+    find_newton_step(problem);
+    if (!bound_step(rods, problem)) {
+      return false;
+    }
+    raise_drives(rods, problem);
+    move_with_obstacles(rods, problem);
+  }
+  for (IslandState& state : states_) {
+    state.is_active = true;
+    state.predicted_decrease = 0.0;
+  }
+  return true;
+}
+
+/// What brings the rods of each island to the speed of the fastest obstacle that they may reach.
+void NewtonSolver::begin_drives(const Rods& rods, const Problem& problem) {
+  std::vector<double> ways(states_.size(), 0.0);
+  problem.contacts->add_longest_ways(rods, scratch_->islands, ways);
+  drives_.assign(states_.size(), 0.0);
+  for (const std::uint32_t rod : members_) {
+    const std::uint32_t island = scratch_->islands[rod];
+    const double speed = ways[island] / problem.step;
+    for (std::uint32_t i = rods.first(rod); i < rods.end(rod); ++i) {
+      drives_[island] += 0.5 * rods.masses[i] * speed * speed;
+    }
+  }
+}
+
+/// Raises them to twice what the whole step in hand is to cost, by the quadratic model of the
+/// energy. With the way d that is left to the obstacles, the contacts' Hessian C by it, and
+/// Newton's step s by the Hessian H and the gradient g − C d, that is
+///   g·s + e + ½ (s·H s − 2 s·C d + d·C d),
+/// and H s = C d − g. The predicted decrease is −(g − C d)·s.
+void NewtonSolver::raise_drives(const Rods& rods, const Problem& problem) {
+  std::vector<ContactSet::MotionEnergy> by_island(states_.size());
+  problem.contacts->add_motion_energies(rods, scratch_->displacements, scratch_->islands,
+                                        by_island);
+  for (std::size_t i = 0; i < states_.size(); ++i) {
+    if (states_[i].is_active) {
+      const ContactSet::MotionEnergy& motion = by_island[i];
+      const double decrease = states_[i].predicted_decrease;
+      const double linear = motion.mixed - decrease + motion.slope;
+      const double quadratic = 0.5 * (decrease - 2.0 * motion.mixed + motion.square);
+      const double left = 1.0 - problem.contacts->moved_shapes()->progress(i);
+      drives_[i] = std::max(drives_[i], 2.0 * (linear + quadratic) / (left * left));
+    }
+  }
+}
+
+void NewtonSolver::keep_stuck(const MovedShapes& moved) {
+  stuck_progress_ = 1.0;
+  for (std::size_t i = 0; i < states_.size(); ++i) {
+    if (states_[i].is_active) {
+      const std::vector<std::uint32_t> objects = moved.objects_of(i);
+      stuck_objects_.insert(stuck_objects_.end(), objects.begin(), objects.end());
+      stuck_progress_ = std::min(stuck_progress_, moved.progress(i));
+    }
+  }
+}
+
+/// Moves rods and obstacles of islands by their shares of a step, or as much less as what must fall
+/// rises.
+void NewtonSolver::move_with_obstacles(Rods& rods, const Problem& problem) {
+  constexpr int max_halvings = 60;
+  MovedShapes& moved = *problem.contacts->moved_shapes();
+  const std::vector<EnergySum> energies_before = energies_;
+  std::vector<double> before;
+  for (std::size_t i = 0; i < states_.size(); ++i) {
+    before.push_back(moved.progress(i));
+    trial_shares_[i] = states_[i].is_active ? trial_shares_[i] : 0.0;
+  }
+  bool has_risen = true;
+  for (int halvings = 0; has_risen; ++halvings) {
+    line_search_.begin(states_.size(), 0);
+    for (std::size_t i = 0; i < states_.size(); ++i) {
+      line_search_.island(i).share = trial_shares_[i];
+      if (states_[i].is_active) {
+        const double share = trial_shares_[i];
+        moved.go_to(i, share == 1.0 ? 1.0 : before[i] + share * (1.0 - before[i]));
+      }
+    }
+    evaluate_trial_step(rods, problem);
+    has_risen = false;
+    for (std::size_t i = 0; i < states_.size(); ++i) {
+      const double left = 1.0 - before[i];
+      const double left_now = 1.0 - moved.progress(i);
+      const double driven = drives_[i] * (left * left - left_now * left_now);
+      const bool is_lower =
+          energies_[i].energy <= energies_before[i].energy + driven + energies_before[i].roundoff();
+      if (trial_shares_[i] > 0.0 && !is_lower) {
+        trial_shares_[i] = halvings < max_halvings ? 0.5 * trial_shares_[i] : 0.0;
+        has_risen = true;
+      }
+    }
+  }
+  bound_.advance(trial_shares_);
+}
+
+/// The work of moving obstacles in the solve [J]: that is energy which impacts may give back.
+double NewtonSolver::obstacle_work(const Rods& rods, const Problem& problem) {
+  obstacle_work_.clear();
+  if (problem.contacts == nullptr || problem.contacts->moved_shapes() == nullptr) {
+    return 0.0;
+  }
+  obstacle_work_.assign(states_.size(), 0.0);
+  problem.contacts->add_obstacle_work(rods, scratch_->islands, obstacle_work_);
+  for (std::size_t i = 0; i < obstacle_work_.size(); ++i) {
+    max_kinetic_[i] += obstacle_work_[i];
+  }
+  return std::accumulate(obstacle_work_.begin(), obstacle_work_.end(), 0.0);
+}
+
+}  // namespace fiber
