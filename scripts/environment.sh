@@ -43,12 +43,10 @@ configure_package() {
 
 # build_package [TARGET...]: configures and builds.
 build_package() {
+  local targets=("${@:-all}")
   configure_package
-  local target
-  for target in "${@:-all}"; do
-    run_step "building $target" "$build/make.log" \
-      cmake --build "$build" --parallel "$(nproc)" --target "$target"
-  done
+  run_step "building ${targets[*]}" "$build/make.log" \
+    cmake --build "$build" --parallel "$(nproc)" --target "${targets[@]}"
 }
 
 # run_tests [ARGUMENT...]: ctest with these, in the build; of what passes only how many.

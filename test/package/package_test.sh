@@ -46,7 +46,7 @@ defined() {
   nm --defined-only -g "$@" 2>/dev/null | awk '$2 ~ /^[TDBR]$/ { print $3 }' | sort -u
 }
 mapfile -t archives < <(
-  find "$build" \( -name libvalidation_geometry.a -o -name libvalidation_sim.a -o -name libtest_support.a -o -name 'libfiber_bench_*.a' \))
+  find "$build" -path "$build/sanitize*" -prune -o \( -name libvalidation_geometry.a -o -name libvalidation_sim.a -o -name libtest_support.a -o -name 'libfiber_bench_*.a' \) -print)
 defined "${archives[@]}" >"$work/test_symbols.txt"
 grep -q hard_pairs "$work/test_symbols.txt" || fail "no symbols of test code are found"
 while IFS= read -r library; do
