@@ -292,7 +292,7 @@ if(FIBER_PROXIMITY_BUILD_BENCHMARKS)
   list(APPEND tutorials measure_your_own_scene)
 endif()
 if(TARGET fiber_proximity_python)
-  list(APPEND tutorials clearance_from_a_bag fit_a_cable plan_with_two_grippers which_setting_for_my_cable
+  list(APPEND tutorials clearance_from_a_bag fit_a_cable harness_on_an_arm plan_with_two_grippers which_setting_for_my_cable
     your_file_in_ten_lines)
 endif()
 list(TRANSFORM tutorials PREPEND ${PROJECT_SOURCE_DIR}/docs/tutorials/)
