@@ -121,7 +121,7 @@ install(TARGETS fiber_player proximity_node cable_sim
 install(FILES nodelet_plugins.xml DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
 install(DIRECTORY config launch meshes rviz urdf DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
 catkin_install_python(PROGRAMS
-  examples/python/guard_robot.py examples/python/predict_motion.py
+  examples/python/guard_robot.py
   scripts/end_simulated_time.py scripts/play_arm.py scripts/play_cell.py scripts/play_joined.py
   scripts/play_passing.py scripts/play_tracker.py scripts/print_contacts.py
   DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION}
