@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Makes the pictures of the simulated scenes with scripts/screenshot.sh, and sheets of them.
 
-Usage: sim_pictures.py [NAME...]     of scenes of config/sim, or of sheets, all of whose scenes are taken; default: all sheets
+Usage: sim_pictures.py [NAME...]     of scenes of config/sim, or of sheets with all their scenes; default: all sheets
 Each picture becomes simulation_pictures/SCENE.png in the build's folder, and each sheet docs/SHEET.png.
 """
 import pathlib

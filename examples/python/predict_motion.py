@@ -6,8 +6,8 @@ Usage: predict_motion.py JOINT=RADIANS... [--clearance M] [--pull N] [--go]
                   default: 0.02
   --pull N        [N] no clip may pull more; default: 50
   --go            moves the arm if the motion is free
-Prints what the cables do on the way, and one of these as the last line: "free", "not free: ...". The exit code is 0 if it is
-free, 1 if it is not, 2 for what cannot be asked.
+Prints what the cables do on the way, and one of these as the last line: "free", "not free: ...". The exit code is 0
+if it is free, 1 if it is not, 2 for what cannot be asked.
 """
 import argparse
 import sys
@@ -63,7 +63,8 @@ def request(robot, start, goal, speed, margin):
     poses = [robot.poses(each) for each in joints]
     asked = PredictRequest(duration=times[-1] + AFTERWARDS, margin=margin)
     for link in CLIPS:
-        asked.trajectories.append(HoldTrajectory(frame=link, times=times, poses=[to_pose(pose[link]) for pose in poses]))
+        asked.trajectories.append(
+            HoldTrajectory(frame=link, times=times, poses=[to_pose(pose[link]) for pose in poses]))
     return asked
 
 
@@ -79,7 +80,8 @@ def objections(answer, names, clearance, pull):
             found.append(f'{pair}: {1e3 * contact.distance:.1f} mm')
     for touch in answer.touches:
         other = (answer.object_names if touch.type_b == Contact.OBJECT else names)[touch.body_b]
-        print(f'touch           {names[touch.fiber]} - {other}: {touch.force:.2f} N, {touch.first:.2f} to {touch.last:.2f} s')
+        print(f'touch           {names[touch.fiber]} - {other}: {touch.force:.2f} N, '
+              f'{touch.first:.2f} to {touch.last:.2f} s')
     for hold in sorted(answer.holds, key=lambda each: -each.force)[:3]:
         print(f'clip            {names[hold.fiber]}[{hold.index}]: {hold.force:.1f} N at {hold.time:.2f} s')
         if hold.force > pull:
