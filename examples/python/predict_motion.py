@@ -2,8 +2,7 @@
 """Asks cable_sim what comes of a motion of the arm of launch/arm_harness.launch, and makes it if nothing does.
 
 Usage: predict_motion.py JOINT=RADIANS... [--clearance M] [--pull N] [--go]
-  --clearance M   [m] fibres must be so far from objects, and from each other unless they touch from the beginning;
-                  default: 0.02
+  --clearance M   [m] fibres must be so far from objects; default: 0.02
   --pull N        [N] no clip may pull more; default: 50
   --go            moves the arm if the motion is free
 Prints what the cables do on the way, and one of these as the last line: "free", "not free: ...". The exit code is 0
