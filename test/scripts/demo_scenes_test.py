@@ -25,7 +25,7 @@ class DemoScenesTest(unittest.TestCase):
         for arguments in (["--scene", "no_scene"], ["--scene"], ["--scene", "plug"], ["--scene", "--headless"]):
             refused = run(*arguments)
             self.assertEqual(refused.returncode, 2)
-            self.assertIn("--scene needs one of bend_wire ", refused.stderr)
+            self.assertIn(f"--scene needs one of {' '.join(SCENES)}", refused.stderr)
         self.assertIn("--continuous is not for --scene", run("--scene", "knot", "--continuous").stderr)
 
     def test_all_have_a_picture(self):
