@@ -78,7 +78,8 @@ if(FIBER_PROXIMITY_BUILD_ROS)
   # By name with rosrun.
   catkin_install_python(PROGRAMS
     examples/python/clearance_over_time.py examples/python/fit_stiffness.py
-    examples/python/plan_two_grippers.py examples/python/plot_clearances.py scripts/accuracy_of_bag.py
+    examples/python/plan_two_grippers.py examples/python/plot_clearances.py
+    examples/python/predict_motion.py scripts/accuracy_of_bag.py
     DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
   install(FILES examples/python/swinging_cable.csv DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 endif()

@@ -122,7 +122,7 @@ install(FILES nodelet_plugins.xml DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION
 install(DIRECTORY config launch meshes rviz urdf DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
 catkin_install_python(PROGRAMS
   examples/python/guard_robot.py
-  scripts/end_simulated_time.py scripts/play_cell.py scripts/play_joined.py
+  scripts/end_simulated_time.py scripts/play_arm.py scripts/play_cell.py scripts/play_joined.py
   scripts/play_passing.py scripts/play_tracker.py scripts/print_contacts.py
   DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION}
 )

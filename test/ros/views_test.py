@@ -21,6 +21,7 @@ WITH_TRACKER = ["topic:=/trackdlo/results_pc", "frame:=camera_color_optical_fram
 
 # Launch files that open rviz, with arguments that they need.
 LAUNCHES = {
+    "arm_harness": [],
     "cable_sim": [],
     "cable_sim forces": ["forces:=true"],
     "cell": [],

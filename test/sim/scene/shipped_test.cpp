@@ -32,15 +32,18 @@ TEST_P(ShippedScene, RunsAndKeepsItsFibresWhole) {
   }
 }
 
+// The rubber band is stretched to more than twice its length, as its own test wants.
 // The harness is of silicone and pulled between clips with friction: as much with Newton's method
 // to its full residual.
 INSTANTIATE_TEST_SUITE_P(Scenes, ShippedScene,
-                         ::testing::Values(Shipped{"capstan", 0.03}, Shipped{"demo", 0.03},
-                                           Shipped{"drum", 0.03}, Shipped{"gripper", 0.03},
-                                           Shipped{"hanging_cable", 0.03},
+                         ::testing::Values(Shipped{"arm_harness", 0.03}, Shipped{"bend_wire", 0.03},
+                                           Shipped{"capstan", 0.03}, Shipped{"close_cable", 0.03},
+                                           Shipped{"demo", 0.03}, Shipped{"drum", 0.03},
+                                           Shipped{"gripper", 0.03}, Shipped{"hanging_cable", 0.03},
                                            Shipped{"harness", 0.035}, Shipped{"hose", 0.03},
                                            Shipped{"joined", 0.03}, Shipped{"knot", 0.03},
-                                           Shipped{"pile", 0.03}, Shipped{"wind", 0.03}),
+                                           Shipped{"pile", 0.03}, Shipped{"plug_in", 0.03},
+                                           Shipped{"push_rope", 0.03}, Shipped{"wind", 0.03}),
                          [](const auto& scene) { return std::string(scene.param.name); });
 
 }  // namespace
