@@ -10,8 +10,8 @@
 #define FIBER_ON_DEVICE
 #endif
 
-/// Highway's functions, by their names, for one lane that is a number. Of numbers only: what is
-/// compared is never NaN.
+/// Highway's functions, by their names, for one lane that is a number. No comparison with NaN is
+/// true, as there; the least and the largest are of numbers only.
 namespace fiber::one_lane {
 
 namespace hn = ::fiber::one_lane;

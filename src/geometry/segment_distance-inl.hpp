@@ -39,7 +39,8 @@ class LaneDistance {
   }
 
   /// Largest difference of coordinates along one axis, of all four points.
-  FIBER_LANE_MEMBER static V extent(const Vector& p0, const Vector& p1, const Vector& q0, const Vector& q1) {
+  FIBER_LANE_MEMBER static V extent(const Vector& p0, const Vector& p1, const Vector& q0,
+                                    const Vector& q1) {
     return hn::Max(extent(p0.x, p1.x, q0.x, q1.x),
                    hn::Max(extent(p0.y, p1.y, q0.y, q1.y), extent(p0.z, p1.z, q0.z, q1.z)));
   }
@@ -86,7 +87,9 @@ class LaneDistance {
   FIBER_LANE_MEMBER static Vector add(const Vector& a, const Vector& b) {
     return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)};
   }
-  FIBER_LANE_MEMBER static Vector negative(const Vector& a) { return {hn::Neg(a.x), hn::Neg(a.y), hn::Neg(a.z)}; }
+  FIBER_LANE_MEMBER static Vector negative(const Vector& a) {
+    return {hn::Neg(a.x), hn::Neg(a.y), hn::Neg(a.z)};
+  }
   FIBER_LANE_MEMBER static Vector scaled(V factor, const Vector& a) {
     return {hn::Mul(factor, a.x), hn::Mul(factor, a.y), hn::Mul(factor, a.z)};
   }
@@ -101,7 +104,8 @@ class LaneDistance {
 
   /// Parameter in [0, 1] of the projection of a point at `offset` from a segment's start; 0 on a
   /// segment of no length.
-  FIBER_LANE_MEMBER static V project(const Vector& offset, const Vector& direction, V squared_length) {
+  FIBER_LANE_MEMBER static V project(const Vector& offset, const Vector& direction,
+                                     V squared_length) {
     const V along = dot(offset, direction);
     const V parameter =
         hn::IfThenElse(hn::Lt(along, squared_length), hn::Div(along, squared_length),

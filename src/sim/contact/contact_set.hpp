@@ -50,7 +50,7 @@ class ContactSet {
   /// @param islands by rod
   /// @param count   of islands
   void begin_motion(const std::vector<std::uint32_t>& islands, std::size_t count) {
-    moved_ = std::make_unique<MovedShapes>(obstacle_contacts, obstacle_edges, islands, count);
+    moved_ = std::make_shared<MovedShapes>(obstacle_contacts, obstacle_edges, islands, count);
   }
 
   /// Null without begin_motion().
@@ -194,7 +194,8 @@ class ContactSet {
   std::vector<bool> was_near_;                        // when the step began, by contact
   std::vector<FrictionPoint> frictions_;
   std::vector<Impact> impacts_;         // of the step
-  std::unique_ptr<MovedShapes> moved_;  // null where no obstacle moves
+  // Null where no obstacle moves; those of a copy are the same, as its contacts are with them.
+  std::shared_ptr<MovedShapes> moved_;
   const Friction* friction_ = nullptr;
   FrictionOrigins origins_;
   double step_ = 0.0;          // [s]

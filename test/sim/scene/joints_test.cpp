@@ -157,7 +157,8 @@ TEST_F(SimSceneTest, WrongJointsAreErrors) {
        "joins them is 0.9 m long, and may be stretched to 0.99 m (max_strain)"},
       {joined("{nodes: [{fiber: stem, at: 0.5}, {fiber: branch}]}, "
               "{nodes: [{fiber: stem, at: 0.51}, {fiber: branch, node: last}]}"),
-       "its 10 segment(s) are too few for a joint or the end of a section at 0.51 beside one at 0.5 of its length"},
+       "its 10 segment(s) are too few for a joint or the end of a section at 0.51 beside one at "
+       "0.5 of its length"},
       {two_fibers + std::string("effects: [stretch, joint]\n"), "a map of joint to a list"},
       {ring_of(square, "2", "stretch"), "segments is 2, it must be at least 3 of a closed fibre"},
       {ring_of("{line: {from: [0, 0, 0], to: [1, 0, 0]}}", "8", "stretch"),
