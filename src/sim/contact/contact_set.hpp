@@ -193,7 +193,7 @@ class ContactSet {
   std::vector<ObstacleDistance> obstacle_distances_;  // by contact
   std::vector<bool> was_near_;                        // when the step began, by contact
   std::vector<FrictionPoint> frictions_;
-  std::vector<Impact> impacts_;         // of the step
+  std::vector<Impact> impacts_;  // of the step
   // Null where no obstacle moves; those of a copy are the same, as its contacts are with them.
   std::shared_ptr<MovedShapes> moved_;
   const Friction* friction_ = nullptr;
