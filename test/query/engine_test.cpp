@@ -200,7 +200,7 @@ std::string refusal(const std::string& name) {
 }
 
 const std::string known_engines =
-    ", known are: run_tree, AL, AL-threaded, AS, DL-20, DS-20, SL, SW, SS, OL, OW, OS, "
+    ", known are: run_tree, AL, AL-threaded, AS, DL-20, DS-20, SL, SW, SS, OL, OW, OS, cuda_tree, "
     "brute_force; DL-k and "
     "DS-k for even k from 6 to 200; DL-k-classic and DS-k-classic for k of 6, 14, 18, 26";
 

@@ -79,10 +79,8 @@ TEST_P(HardScenesEngineTest, GivesBruteForcesContactsToTheBit) {
 }
 
 std::vector<std::string> all_engines() {
-  std::vector<std::string> names = all_engine_names();
+  std::vector<std::string> names = with_cuda_tree(all_engine_names());
   names.insert(names.end(), {"DL-6", "DS-6", "DL-26", "DS-26", "DL-26-classic", "DS-26-classic"});
-  register_cuda_tree();
-  names.emplace_back("cuda_tree");
   return names;
 }
 

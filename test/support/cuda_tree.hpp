@@ -1,8 +1,10 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdlib>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "fiber_proximity/query/engine.hpp"
 #include "src/cuda/cuda_tree_engine.hpp"
@@ -25,6 +27,15 @@ inline void register_cuda_tree() {
                                             options);
   };
   [[maybe_unused]] static const bool is_registered = register_engines(family);
+}
+
+/// These names of engines, and that of `cuda_tree` if it is not among them, which is known then.
+inline std::vector<std::string> with_cuda_tree(std::vector<std::string> names) {
+  register_cuda_tree();
+  if (std::find(names.begin(), names.end(), "cuda_tree") == names.end()) {
+    names.emplace_back("cuda_tree");
+  }
+  return names;
 }
 
 }  // namespace fiber::test

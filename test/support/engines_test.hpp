@@ -44,12 +44,7 @@ class EnginesTest : public testing::TestWithParam<std::string> {
 };
 
 /// Parameters of tests of all engines, and their names.
-inline auto all_engines() {
-  std::vector<std::string> names = all_engine_names();
-  register_cuda_tree();
-  names.emplace_back("cuda_tree");
-  return testing::ValuesIn(names);
-}
+inline auto all_engines() { return testing::ValuesIn(with_cuda_tree(all_engine_names())); }
 inline std::string name_of_engine(const testing::TestParamInfo<std::string>& engine) {
   return test_name(engine.param);
 }
