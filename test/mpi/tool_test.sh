@@ -10,7 +10,10 @@ shift
 mpiexec=("$@")
 test_name=$(basename "$0" .sh)
 work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
+# Open MPI's folder of a session is each test's own: of two that make one in /tmp at the same time one gives up.
+OMPI_MCA_orte_tmpdir_base=$(mktemp -d)
+export OMPI_MCA_orte_tmpdir_base
+trap 'rm -rf "$work" "$OMPI_MCA_orte_tmpdir_base"' EXIT
 cd "$work"
 
 fail() {

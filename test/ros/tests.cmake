@@ -300,6 +300,8 @@ list(TRANSFORM tutorials APPEND .md)
 # In both orders each comes after each other one, and what that has left.
 add_test(NAME tutorials COMMAND ${CATKIN_ENV} /usr/bin/python3 -B
   ${CMAKE_CURRENT_SOURCE_DIR}/docs/tutorials_test.py ${tutorials})
+# Minutes of a simulated arm: once is enough.
+list(REMOVE_ITEM tutorials ${PROJECT_SOURCE_DIR}/docs/tutorials/harness_on_an_arm.md)
 add_test(NAME tutorials_in_reverse COMMAND ${CATKIN_ENV} /usr/bin/python3 -B
   ${CMAKE_CURRENT_SOURCE_DIR}/docs/tutorials_test.py --reverse ${tutorials})
 add_test(NAME setup_test COMMAND /usr/bin/python3 -B ${CMAKE_CURRENT_SOURCE_DIR}/docs/setup_test.py
