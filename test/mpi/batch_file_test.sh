@@ -9,7 +9,7 @@ tools=$2
 shift 2
 work=$(mktemp -d)
 job=
-trap '[ -z "$job" ] || kill "$job" 2>/dev/null || true; wait; rm -rf "$work"' EXIT
+trap '[ -z "$job" ] || kill "$job" 2>/dev/null || true; wait; rm -rf "$work" "$OMPI_MCA_orte_tmpdir_base"' EXIT
 cd "$work"
 
 fail() {

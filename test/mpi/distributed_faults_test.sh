@@ -13,7 +13,7 @@ mpiexec=("$@")
 work=$(mktemp -d)
 run=
 # What runs in the background ends with its ranks, whatever has failed.
-trap '[ -z "$run" ] || kill "$run" 2>/dev/null || true; wait; rm -rf "$work"' EXIT
+trap '[ -z "$run" ] || kill "$run" 2>/dev/null || true; wait; rm -rf "$work" "$OMPI_MCA_orte_tmpdir_base"' EXIT
 cd "$work"
 
 fail() {
