@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "fiber_proximity/cuda/cuda_engines.hpp"
 #include "test/support/engine_names.hpp"
 #include "test/support/shared_data.hpp"
 #include "test/tools/fiber_query.hpp"
@@ -54,6 +55,7 @@ TEST_F(FiberQuery, EveryEnginePrintsTheSameBytes) {
 TEST_F(FiberQuery, AnEngineThatIsNoneIsRefusedWithAllThereAre) {
   const std::string file = crossing();
   register_paper_engines();
+  register_cuda_engines();
   std::string known;
   for (const std::string& name : engine_names()) {
     known += (known.empty() ? "known are: " : ", ") + name;
