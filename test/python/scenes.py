@@ -65,11 +65,16 @@ class Simulations(unittest.TestCase):
                'motion': {'path': [{'time': 0}, {'time': 1, 'position': [0.5, 0, 1.94]}]}}
         simulation = fp.Simulation({'fibers': [CABLE], 'effects': ['stretch', 'bend', 'environment_contact'],
                                     'environment': {'obstacles': [box]}})
-        simulation.step(6)
-        felt = simulation.forces.obstacles
-        self.assertEqual(felt['object'].tolist(), [0])
+        pushes = []
+        for _ in range(6):
+            simulation.step(1)
+            felt = simulation.forces.obstacles
+            self.assertEqual(felt['object'].tolist(), [0])
+            pushes.append(felt['force'][0, 2])
         np.testing.assert_allclose(felt['point'], [[0.5, 0, 1.04]], atol=1e-9)
-        self.assertLess(felt['force'][0, 2], 0.0)
+        self.assertLess(min(pushes), 0.0)  # the cable flies ahead of the box in between
+        self.assertLessEqual(max(pushes), 0.0)
+        self.assertGreater(simulation.positions[10, 2], 1.04)
 
     def test_a_ring_hangs_from_a_cable(self):
         ring = {'name': 'ring', 'material': 'silicone_tube', 'radius': 0.005, 'segments': 16, 'closed': True,
