@@ -44,7 +44,7 @@ take_scene() {
   launch_arguments+=(scene:="$root/config/sim/$scene.yaml")
   case "$scene" in
     # What is seen of these are contacts with posts and sockets.
-    bend_wire | capstan | close_cable | harness | plug_in | rubber_band)
+    bend_wire | capstan | close_cable | drum | gripper | harness | plug_in | rubber_band)
       launch_arguments+=(environment_contacts:=true)
       contacts=/proximity/environment_contacts
       ;;

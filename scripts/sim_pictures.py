@@ -34,12 +34,15 @@ SCENES = {
     "plug_in": (6, (5.1, 0.3, 0.4, (-0.04, 0.0, 0.12)), *ENVIRONMENT),
     "close_cable": (6, (4.9, 0.8, 0.5, (0.0, 0.02, 0.02)), *ENVIRONMENT),
     "rubber_band": (8, (4.9, 0.7, 0.26, (0.045, 0.0, 0.02)), *ENVIRONMENT),
+    "gripper": (4, (5.2, 0.3, 0.75, (0.0, 0.0, 0.08)), *ENVIRONMENT),
+    "drum": (3, (5.2, 0.25, 1.0, (0.0, 0.0, -0.25)), *ENVIRONMENT),
     "arm_harness": (6, (1.0, 0.2, 1.1, (-0.28, 0.05, 1.02)), "margin:=0.01"),
 }
 
 SHEETS = {
     "simulation_scenes": ["hanging_cable", "pile", "knot", "harness", "capstan", "wind", "hose", "demo"],
     "handling_scenes": ["joined", "bend_wire", "push_rope", "plug_in", "close_cable", "rubber_band"],
+    "moving_obstacles": ["gripper", "drum"],
     "harness_on_an_arm": ["arm_harness"],
 }
 
