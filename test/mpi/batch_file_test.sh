@@ -9,6 +9,8 @@ tools=$2
 shift 2
 work=$(mktemp -d)
 job=
+OMPI_MCA_orte_tmpdir_base=$(mktemp -d) # as tool_test.sh has it
+export OMPI_MCA_orte_tmpdir_base
 trap '[ -z "$job" ] || kill "$job" 2>/dev/null || true; wait; rm -rf "$work" "$OMPI_MCA_orte_tmpdir_base"' EXIT
 cd "$work"
 
