@@ -13,6 +13,8 @@ mpiexec=("$@")
 work=$(mktemp -d)
 run=
 # What runs in the background ends with its ranks, whatever has failed.
+OMPI_MCA_orte_tmpdir_base=$(mktemp -d) # as tool_test.sh has it
+export OMPI_MCA_orte_tmpdir_base
 trap '[ -z "$run" ] || kill "$run" 2>/dev/null || true; wait; rm -rf "$work" "$OMPI_MCA_orte_tmpdir_base"' EXIT
 cd "$work"
 
