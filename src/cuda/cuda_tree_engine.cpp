@@ -35,28 +35,15 @@ void update(DeviceTree& tree, const FiberAssembly& fibers, const Vector3d& origi
   if (!same_topology) {
     tree.set_topology(topology_of(fibers.offsets()));
   }
-  HostFibers host;
+  HostFibers host = host_fibers(fibers, radii);
   host.coordinates = fibers.points().empty() ? nullptr : fibers.points().front().data();
-  host.point_count = fibers.point_count();
-  host.radius = fibers.radii().front();
   Eigen::Map<Vector3d>(host.origin) = origin;
-  if (fibers.radius_per() != RadiusPer::ASSEMBLY) {
-    radii.resize(fibers.point_count());
-    for (std::uint32_t point = 0; point < fibers.point_count(); ++point) {
-      radii[point] = fibers.segment_radius(point);
-    }
-    host.radii = radii.data();
-  }
   tree.update(host);
 }
 
 PairRule rule_of(const QueryOptions& options, bool self, double bound) {
-  PairRule rule;
+  PairRule rule = pair_rule(bound, options.neighbour_skip.value_or(1), options.pairing);
   rule.self = self;
-  rule.bound = round_up(bound);
-  rule.neighbour_skip = options.neighbour_skip.value_or(1);
-  rule.same_fiber = options.pairing != Pairing::DIFFERENT_FIBERS;
-  rule.different_fibers = options.pairing != Pairing::SAME_FIBER;
   return rule;
 }
 

@@ -3,6 +3,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "src/bounds/bounding_volume.hpp"
+
 namespace fiber {
 
 HostTopology topology_of(const std::vector<std::uint32_t>& offsets) {
@@ -26,6 +28,29 @@ void require_tree_size(std::size_t segment_count) {
                                 std::to_string(SegmentTreeView::max_segments) +
                                 " segments, there are " + std::to_string(segment_count));
   }
+}
+
+HostFibers host_fibers(const FiberAssembly& fibers, std::vector<double>& radii) {
+  HostFibers host;
+  host.point_count = fibers.point_count();
+  host.radius = fibers.radii().front();
+  if (fibers.radius_per() != RadiusPer::ASSEMBLY) {
+    radii.resize(fibers.point_count());
+    for (std::uint32_t point = 0; point < fibers.point_count(); ++point) {
+      radii[point] = fibers.segment_radius(point);
+    }
+    host.radii = radii.data();
+  }
+  return host;
+}
+
+PairRule pair_rule(double bound, std::uint32_t neighbour_skip, Pairing pairing) {
+  PairRule rule;
+  rule.bound = round_up(bound);
+  rule.neighbour_skip = neighbour_skip;
+  rule.same_fiber = pairing != Pairing::DIFFERENT_FIBERS;
+  rule.different_fibers = pairing != Pairing::SAME_FIBER;
+  return rule;
 }
 
 }  // namespace fiber

@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "fiber_proximity/geometry/fiber_assembly.hpp"
+#include "fiber_proximity/query/options.hpp"
 #include "src/cuda/device.hpp"
 
 namespace fiber {
@@ -12,5 +14,13 @@ HostTopology topology_of(const std::vector<std::uint32_t>& offsets);
 
 /// @throws std::invalid_argument for more segments than a tree can have
 void require_tree_size(std::size_t segment_count);
+
+/// What all fibres have but coordinates.
+/// @param radii memory for those of segments, if they have more than one [m]; the result refers to
+/// it
+HostFibers host_fibers(const FiberAssembly& fibers, std::vector<double>& radii);
+
+/// Which pairs of one tree are meant, but for what the host decides.
+PairRule pair_rule(double bound, std::uint32_t neighbour_skip, Pairing pairing);
 
 }  // namespace fiber

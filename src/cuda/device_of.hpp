@@ -13,13 +13,21 @@
 
 namespace fiber {
 
-/// What executors have:
-///   Buffer<T>   device memory: resize(count) makes it as long, without what was in it; data(),
-///   size() upload(from, count, buffer), download(buffer, count, to) for_each(count, f) calls
-///   f(index) for 0 … count − 1 for_each_warp(count, f)   calls f(warp, index, scratch), with an
-///   F::Scratch that a warp shares sort_by_key(keys, values, count, bits), sort(keys, count)
-///   ascending; keys of so many bits zero(buffer)
-/// Calls take effect in their order.
+/// What executors have, whose calls take effect in their order:
+///
+/// - Buffer<T>, device memory: resize(count) makes it as long, without what was in it; data(),
+/// size(),
+///   bytes()
+/// - upload(from, count, buffer), download(buffer, first, count, to), download_from(pointer, count,
+///   to), zero(buffer)
+/// - require_own(pointer), which throws std::invalid_argument where the device cannot read, and
+///   wait_for_others(), until what others have given the device is done
+/// - for_each(count, f), which calls f(index) for 0 … count − 1, and for_each_warp(count, f), which
+///   calls f(warp, index, scratch), with an F::Scratch that a warp shares
+/// - sort_by_key(keys, values, count, bits), ascending, of keys of so many bits; sort(keys, count,
+///   bits), of keys whose halves have so many; add_up(buffer, count) makes each the sum of all up
+///   to it
+/// - Clock: start(), stop(), and seconds() between the two of what the device has done
 template <class Executor>
 class DeviceTreeOf final : public DeviceTree {
  public:

@@ -5,7 +5,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "src/bounds/bounding_volume.hpp"
 #include "src/cuda/device_fibers.hpp"
 #include "src/query/threads.hpp"
 
@@ -29,15 +28,7 @@ DeviceProximity::DeviceProximity(std::unique_ptr<Device> device, std::vector<std
   const FiberAssembly fibers(std::vector<Eigen::Vector3d>(point_count, Eigen::Vector3d::Zero()),
                              offsets_, std::move(radii));
   require_tree_size(fibers.segment_count());
-  tree_->fibers.point_count = point_count;
-  tree_->fibers.radius = fibers.radii().front();
-  if (fibers.radius_per() != RadiusPer::ASSEMBLY) {
-    tree_->radii.resize(point_count);
-    for (std::uint32_t point = 0; point < point_count; ++point) {
-      tree_->radii[point] = fibers.segment_radius(point);
-    }
-    tree_->fibers.radii = tree_->radii.data();
-  }
+  tree_->fibers = host_fibers(fibers, tree_->radii);
   tree_->tree = device_->make_tree();
   tree_->tree->set_topology(topology_of(offsets_));
 }
@@ -93,11 +84,7 @@ DeviceProximity::Contacts DeviceProximity::query(const Options& options) const {
   if (!tree_->has_points) {
     throw std::logic_error("there are no points yet: call update() first");
   }
-  PairRule rule;
-  rule.bound = round_up(options.margin);
-  rule.neighbour_skip = options.neighbour_skip;
-  rule.same_fiber = options.pairing != Pairing::DIFFERENT_FIBERS;
-  rule.different_fibers = options.pairing != Pairing::SAME_FIBER;
+  const PairRule rule = pair_rule(options.margin, options.neighbour_skip, options.pairing);
   const DeviceContacts found = device_->contacts(*tree_->tree, rule, options.margin);
   const ContactArrays& arrays = found.arrays;
   return {found.count, arrays.a, arrays.b, arrays.s, arrays.t, arrays.distance};

@@ -95,6 +95,18 @@ struct PointBounds {
   }
 };
 
+/// Writes the box around those of all lanes.
+template <class Warp, class Box>
+FIBER_ON_DEVICE void write_joined(Warp warp, const typename Warp::template PerLane<Box>& boxes,
+                                  Box& to) {
+  const Box all = warp.reduce(boxes, [](Box& a, const Box& b) { a.take(b); });
+  warp.each([&](int lane) {
+    if (lane == 0) {
+      to = all;
+    }
+  });
+}
+
 /// Bounds of 1024 points each.
 struct BoundPoints {
   static constexpr std::uint32_t rounds = 32;
@@ -122,13 +134,7 @@ struct BoundPoints {
         }
       }
     });
-    const PointBounds all =
-        warp.reduce(mine, [](PointBounds& a, const PointBounds& b) { a.take(b); });
-    warp.each([&](int lane) {
-      if (lane == 0) {
-        bounds[index] = all;
-      }
-    });
+    write_joined(warp, mine, bounds[index]);
   }
 };
 
@@ -148,12 +154,7 @@ struct JoinBoxes {
       const std::uint32_t child = index * warp_width + static_cast<std::uint32_t>(lane);
       mine[lane] = below[child < below_count ? child : below_count - 1];
     });
-    const Box all = warp.reduce(mine, [](Box& a, const Box& b) { a.take(b); });
-    warp.each([&](int lane) {
-      if (lane == 0) {
-        boxes[index] = all;
-      }
-    });
+    write_joined(warp, mine, boxes[index]);
   }
 };
 
@@ -274,12 +275,7 @@ struct FitLeaves {
       const std::uint32_t segment = index * warp_width + static_cast<std::uint32_t>(lane);
       mine[lane] = box_of(segments[segment < segment_count ? segment : segment_count - 1], 0.0F);
     });
-    const TreeBox all = warp.reduce(mine, [](TreeBox& a, const TreeBox& b) { a.take(b); });
-    warp.each([&](int lane) {
-      if (lane == 0) {
-        boxes[index] = all;
-      }
-    });
+    write_joined(warp, mine, boxes[index]);
   }
 };
 
