@@ -6,11 +6,11 @@
 
 #include "benchmark/accuracy_settings.hpp"
 #include "benchmark/commands.hpp"
+#include "benchmark/measured_scene.hpp"
 #include "benchmark/options.hpp"
 #include "benchmark/report.hpp"
 #include "benchmark/scene_options.hpp"
 #include "fiber_proximity/query/engine.hpp"
-#include "fiber_proximity/scenes/scene.hpp"
 #include "src/accuracy/answer_errors.hpp"
 #include "src/accuracy/statistics.hpp"
 #include "src/tools/progress.hpp"
@@ -70,9 +70,9 @@ class Accuracy {
  public:
   explicit Accuracy(const AccuracyRequest& request)
       : request_(request),
-        scene_(make_scene(request.scene, request.scene_options)),
+        scene_(measured_scene(request.scene, request.scene_options)),
         fibers_(scene_(0)),
-        engine_(make_engine(request.engine, {request.threads})) {
+        engine_(make_engine(request.engine, {request.threads, 0.0})) {
     for (const AccuracySetting& setting : accuracy_settings(fibers_.largest_radius())) {
       runs_.emplace_back(setting);
     }

@@ -1,16 +1,17 @@
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include "benchmark/agreement.hpp"
 #include "benchmark/commands.hpp"
+#include "benchmark/measured_scene.hpp"
 #include "benchmark/options.hpp"
 #include "benchmark/report.hpp"
 #include "benchmark/scene_options.hpp"
 #include "benchmark/swaying.hpp"
-#include "fiber_proximity/scenes/scene.hpp"
 #include "src/accuracy/statistics.hpp"
 #include "src/query/run_tree_engine.hpp"
 #include "src/tools/progress.hpp"
@@ -21,9 +22,10 @@ namespace {
 struct CoherenceRequest {
   std::string scene = "soup";
   SceneOptions scene_options;
-  double motion = 0.02;                                        // mean segment lengths per frame
-  double moving = 1.0;                                         // part of the fibres
-  std::vector<double> skins{0, 0.03, 0.06, 0.12, 0.24, 0.48};  // mean segment lengths
+  double motion = 0.02;  // mean segment lengths per frame
+  double moving = 1.0;   // part of the fibres
+  std::vector<double> skins{0,    0.03, 0.06,
+                            0.12, 0.24, 0.48};  // mean segment lengths, beside automatic
   std::uint32_t frames = 60;
   std::uint32_t threads = 1;
   bool json = false;
@@ -32,14 +34,18 @@ struct CoherenceRequest {
 /// run_tree with one skin, and the times it has taken.
 class SkinRun {
  public:
-  SkinRun(double skin_lengths, double segment_length, std::uint32_t threads)
-      : skin_lengths_(skin_lengths),
-        skin_(skin_lengths * segment_length),
-        engine_({threads, skin_}) {}
+  /// @param skin_lengths mean segment lengths; none: the engine chooses
+  SkinRun(const std::optional<double>& skin_lengths, double segment_length, std::uint32_t threads)
+      : skin_lengths_(skin_lengths), engine_(options(skin_lengths, segment_length, threads)) {}
 
   std::string name() const {
     std::ostringstream name;
-    name << "skin " << skin_lengths_;
+    name << "skin ";
+    if (skin_lengths_) {
+      name << *skin_lengths_;
+    } else {
+      name << "automatic";
+    }
     return name.str();
   }
 
@@ -57,8 +63,10 @@ class SkinRun {
     pairs_ = result.contacts.size();
   }
 
-  double skin_lengths() const { return skin_lengths_; }
-  double skin() const { return skin_; }  ///< [m]
+  BenchmarkRow skin_lengths() const {
+    return skin_lengths_ ? BenchmarkRow(*skin_lengths_) : BenchmarkRow("automatic");
+  }
+  double skin() const { return engine_.skin(); }  ///< [m] at the end
   std::uint32_t threads() const { return engine_.facts().thread_count; }
   double update_ms() const { return mean(update_ms_); }
   double detect_ms() const { return mean(detect_ms_); }
@@ -69,8 +77,17 @@ class SkinRun {
   std::size_t pairs() const { return pairs_; }
 
  private:
-  const double skin_lengths_;
-  const double skin_;
+  static EngineOptions options(const std::optional<double>& skin_lengths, double segment_length,
+                               std::uint32_t threads) {
+    EngineOptions options;
+    options.threads = threads;
+    if (skin_lengths) {
+      options.skin = *skin_lengths * segment_length;
+    }
+    return options;
+  }
+
+  const std::optional<double> skin_lengths_;
   RunTreeEngine engine_;
   std::uint64_t refits_before_ = 0;
   std::uint64_t partial_before_ = 0;
@@ -84,20 +101,27 @@ class Coherence {
  public:
   explicit Coherence(const CoherenceRequest& request)
       : request_(request),
-        fibers_(make_scene(request.scene, request.scene_options)(0)),
+        scene_(measured_scene(request.scene, request.scene_options, request.motion)),
+        fibers_(scene_(0)),
         segment_length_(mean_segment_length(fibers_)),
+        motion_(is_scene_file(request.scene) ? motion_of(scene_) : request.motion),
         swaying_(fibers_, request.motion * segment_length_, request.scene_options.seed,
                  request.moving) {
     for (const double skin : request.skins) {
       runs_.push_back(std::make_unique<SkinRun>(skin, segment_length_, request.threads));
     }
+    runs_.push_back(std::make_unique<SkinRun>(std::nullopt, segment_length_, request.threads));
   }
 
   /// In turns, so that what slows the machine down for a while slows all of them; who goes first
   /// changes from frame to frame.
   void measure() {
     for (std::uint32_t frame = 0; frame <= request_.frames; ++frame) {
-      fibers_.update_points(swaying_.points(frame));
+      if (is_scene_file(request_.scene)) {
+        fibers_ = scene_(frame);
+      } else {
+        fibers_.update_points(swaying_.points(frame));
+      }
       agreement_.begin_frame(frame);
       for (std::size_t turn = 0; turn < runs_.size(); ++turn) {
         SkinRun& run = *runs_[(frame + turn) % runs_.size()];
@@ -120,7 +144,7 @@ class Coherence {
       std::cout << request_.scene << ": " << fibers_.fiber_count() << " fibres, " << segments
                 << " segments of " << segment_length_ << " m; means over " << request_.frames
                 << " frame(s), the points of " << request_.moving << " of the fibres move by "
-                << request_.motion << " segment lengths per frame\n";
+                << motion_ << " segment lengths per frame\n";
     }
     RowPrinter printer({{"skin", "skin_lengths"},
                         {"skin [m]", "skin"},
@@ -137,7 +161,7 @@ class Coherence {
                      {"seed", request_.scene_options.seed},
                      {"shuffle", request_.scene_options.shuffle},
                      {"frames", request_.frames},
-                     {"motion", request_.motion},
+                     {"motion", motion_},
                      {"moving", request_.moving},
                      {"engine", "run_tree"},
                      {"skin", run->skin()},
@@ -161,8 +185,10 @@ class Coherence {
 
  private:
   const CoherenceRequest& request_;
+  const Scene scene_;
   FiberAssembly fibers_;
   const double segment_length_;  // [m] mean
+  const double motion_;          // mean segment lengths per frame
   Swaying swaying_;
   std::vector<std::unique_ptr<SkinRun>> runs_;
   Agreement agreement_;
@@ -184,11 +210,12 @@ ExitCode run_coherence(const CoherenceRequest& request) {
 
 void add_coherence_command(CLI::App& app, Command& command) {
   const auto request = std::make_shared<CoherenceRequest>();
-  CLI::App* const coherence = add_subcommand(
-      app, command, "coherence",
-      "run_tree with several skins on a scene that moves a little in every frame; means over the "
-      "frames, as most are cheap and those that look for candidates anew are dear",
-      request, run_coherence);
+  CLI::App* const coherence =
+      add_subcommand(app, command, "coherence",
+                     "run_tree with the skin that it chooses and several others on a scene that "
+                     "moves a little in every frame; means over the "
+                     "frames, as most are cheap and those that look for candidates anew are dear",
+                     request, run_coherence);
   add_scene_options(*coherence, request->scene, request->scene_options);
   add_value(*coherence, "--motion", request->motion,
             "how far points move per frame, in mean segment lengths", finite_number(0.0));

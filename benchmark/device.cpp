@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "benchmark/commands.hpp"
+#include "benchmark/measured_scene.hpp"
 #include "benchmark/measurement.hpp"
 #include "benchmark/options.hpp"
 #include "benchmark/report.hpp"
@@ -78,7 +79,7 @@ void print(const DeviceRequest& request, const FiberAssembly& fibers, std::size_
 
 ExitCode run_device(const DeviceRequest& request) {
   Progress progress;
-  const Scene scene = make_scene(request.scene, request.scene_options);
+  const Scene scene = measured_scene(request.scene, request.scene_options);
   FiberAssembly fibers = scene(0);
   DeviceProximity device(fibers.offsets(), fibers.radii());
   const std::unique_ptr<ProximityEngine> engine = make_engine("run_tree", {request.threads, 0.0});

@@ -8,9 +8,9 @@
 
 #include "benchmark/agreement.hpp"
 #include "benchmark/copies.hpp"
+#include "benchmark/measured_scene.hpp"
 #include "benchmark/peers/peer.hpp"
 #include "benchmark/swapped_places.hpp"
-#include "fiber_proximity/scenes/scene.hpp"
 #include "src/accuracy/statistics.hpp"
 #include "src/tools/progress.hpp"
 
@@ -107,7 +107,7 @@ Measurement measure(const MeasurementOptions& options) {
   assert(options.repeats > 0 && !options.engines.empty());
   Progress progress;
   const Scene scene =
-      side_by_side(make_scene(options.scene, options.scene_options), options.copies);
+      side_by_side(measured_scene(options.scene, options.scene_options), options.copies);
   FiberAssembly fibers = scene(0);
   std::vector<EngineRun> runs;
   for (const std::string& name : options.engines) {

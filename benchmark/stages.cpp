@@ -3,11 +3,11 @@
 #include <memory>
 
 #include "benchmark/commands.hpp"
+#include "benchmark/measured_scene.hpp"
 #include "benchmark/options.hpp"
 #include "benchmark/report.hpp"
 #include "benchmark/scene_options.hpp"
 #include "fiber_proximity/query/engine.hpp"
-#include "fiber_proximity/scenes/scene.hpp"
 #include "src/accuracy/statistics.hpp"
 #include "src/paper/engines/leaf_pretest.hpp"
 
@@ -44,9 +44,9 @@ class Stages {
  public:
   explicit Stages(const StagesRequest& request)
       : request_(request),
-        scene_(make_scene(request.scene, request.scene_options)),
+        scene_(measured_scene(request.scene, request.scene_options)),
         fibers_(scene_(0)),
-        engine_(make_engine(request.engine)) {
+        engine_(make_engine(request.engine, {0, 0.0})) {
     set_leaf_pretest(*engine_, !request.no_leaf_pretest);
     print("build", {{"build_ms", time_of([this] { engine_->update(fibers_); })}});
   }

@@ -12,7 +12,7 @@ fiber_proximity_tool(fiber_bench benchmark/fiber_bench.cpp
   benchmark/environment/own_checker.cpp benchmark/kernels.cpp
   benchmark/continuous/fiber_ways.cpp benchmark/continuous/measure_accuracy.cpp benchmark/continuous/measure_scenes.cpp
   benchmark/continuous/measure_times.cpp benchmark/continuous/scene_motions.cpp
-  benchmark/measurement.cpp benchmark/motions.cpp benchmark/report.cpp benchmark/scene_commands.cpp
+  benchmark/measured_scene.cpp benchmark/measurement.cpp benchmark/motions.cpp benchmark/report.cpp benchmark/scene_commands.cpp
   benchmark/scene_options.cpp benchmark/sim/cable_judge.cpp benchmark/sim/cable_run.cpp
   benchmark/sim/cable_scene.cpp benchmark/sim/effect_costs.cpp benchmark/sim/effect_scene.cpp
   benchmark/sim/hose.cpp benchmark/sim/loads.cpp

@@ -35,7 +35,7 @@ def must_be(entry):
     if 'must_be' in entry:
         return entry['must_be']
     if entry['type'] in KINDS:
-        least = f"{KINDS[entry['type']]} {{}} {entry['least']:g}"
+        least = ' or '.join([*entry.get('values', {}), f"{KINDS[entry['type']]} {{}} {entry['least']:g}"])
         return f"{least.format('from')} to {entry['most']:g}" if 'most' in entry else least.format('of at least')
     if 'values' in entry:
         return 'one of ' + ', '.join(entry['values'])
@@ -52,7 +52,7 @@ def shown_default(entry):
     if 'shown' in entry:
         return entry['shown']
     text = str(entry['default'])
-    return f'`{text}`' if entry['type'] == 'str' else text.lower().replace('e-0', 'e-').replace('-', '−')
+    return f'`{text}`' if isinstance(entry['default'], str) else text.lower().replace('e-0', 'e-').replace('-', '−')
 
 
 def shown_text(entry):

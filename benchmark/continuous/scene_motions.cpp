@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "benchmark/continuous/fiber_ways.hpp"
+#include "benchmark/measured_scene.hpp"
 #include "benchmark/processor_time.hpp"
 #include "fiber_proximity/query/engine.hpp"
-#include "fiber_proximity/scenes/scene.hpp"
 #include "src/accuracy/statistics.hpp"
 #include "src/query/contact_evaluator.hpp"
 
@@ -30,7 +30,7 @@ class MovingScene {
  public:
   explicit MovingScene(const SceneMotionSettings& settings)
       : settings_(settings),
-        before_(make_scene(settings.scene, settings.scene_options)(0)),
+        before_(measured_scene(settings.scene, settings.scene_options)(0)),
         after_(before_),
         between_(before_),
         radius_(mean_radius(before_)) {}

@@ -53,7 +53,7 @@ std::unique_ptr<ProximityEngine> make_bench_engine(const std::string& name,
     return peer.make(options);
   }
   try {
-    return make_engine(name, {options.threads});
+    return make_engine(name, {options.threads, 0.0});
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(std::string(error.what()) + "; peers are: " + all_peers());
   }

@@ -72,7 +72,7 @@ void add_engines(const AnswerSetting& reference, const SettingChoices& choices,
   for (const double skin : choices.skins) {
     AnswerSetting setting = reference;
     setting.kind = SettingKind::SKIN;
-    setting.name = "skin of " + millimetres(skin);
+    setting.name = skin == 0.0 ? "no skin" : "skin of " + millimetres(skin);
     setting.engine_options.skin = skin;
     settings.push_back(setting);
   }

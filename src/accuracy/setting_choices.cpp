@@ -53,12 +53,12 @@ double mean_segment_length(const FiberAssembly& fibers) {
   return sum / static_cast<double>(fibers.segment_count());
 }
 
-/// Skins [m] of several times what points move, as EngineOptions::skin wants it. One that is as
-/// long as segments has too many pairs to pay, and of hair more than memory holds.
+/// Skins [m] beside the one that the engine chooses: none, and several times what points move. One
+/// that is as long as segments has too many pairs to pay, and of hair more than memory holds.
 /// @param step [m] that points move from frame to frame
 std::vector<double> skins_of(const FiberAssembly& fibers, double step,
                              std::vector<std::string>& left_out) {
-  std::vector<double> skins;
+  std::vector<double> skins{0.0};
   const double longest = mean_segment_length(fibers);
   for (const double steps : {4.0, 16.0}) {
     const double skin = steps * step;

@@ -78,11 +78,16 @@ class Measurement {
   }
 
  private:
+  /// What it finds in one frame may help in the next.
+  static bool keeps_pairs(const AnswerSetting& setting) {
+    return setting.engine_options.skin != 0.0;
+  }
+
   void add(const AnswerSetting& setting) {
     std::string key = setting.engine + ' ' + std::to_string(setting.engine_options.threads) + ' ' +
-                      rounded_text(setting.engine_options.skin, 17) + ' ' +
+                      rounded_text(setting.engine_options.skin.value_or(-1.0), 17) + ' ' +
                       rounded_text(setting.chord_error, 17);
-    if (setting.engine_options.skin > 0.0) {
+    if (keeps_pairs(setting)) {
       key += ' ' + setting.question;
     }
     const auto [place, is_new] = place_of_.try_emplace(key, engines_.size());
@@ -189,7 +194,7 @@ class Measurement {
     }
     shuffle(order_);
     for (const std::size_t i : order_) {
-      if (is_on_[i] && (is_counted || runs_[i].setting().engine_options.skin > 0.0)) {
+      if (is_on_[i] && (is_counted || keeps_pairs(runs_[i].setting()))) {
         ask(engines_[engine_of_[i]], runs_[i], fibers, is_counted, is_judged);
       }
     }

@@ -15,7 +15,8 @@
 
 namespace fiber::python {
 
-Engine::Engine(std::string name, std::int64_t threads, double skin) : name_(std::move(name)) {
+Engine::Engine(std::string name, std::int64_t threads, std::optional<double> skin)
+    : name_(std::move(name)) {
   options_.threads = to_index(threads, "threads");
   options_.skin = skin;
   engine_ = make_engine(name_, options_);
@@ -124,9 +125,10 @@ name : str, default "run_tree"
     One of ``engine_names()``. All give the same contacts; they differ in what they cost.
 threads : int, default 0
     Most threads to use, 0 for as many as there are cores. The answers do not depend on it.
-skin : float [m], default 0
+skin : float [m], optional
     Pairs up to this far beyond the margin are kept and serve as long as no two points have moved by
-    more than this together: pays for slow motion.
+    more than this together; 0 keeps none. Without, the engine chooses by what points move from one
+    update to the next, and by what its frames cost.
 
 Raises
 ------
@@ -255,7 +257,7 @@ ValueError
 using Pointer = std::shared_ptr<Engine>;
 
 Pointer make_updated(std::shared_ptr<Fibers> fibers, const std::string& name, std::int64_t threads,
-                     double skin) {
+                     std::optional<double> skin) {
   auto engine = std::make_shared<Engine>(name, threads, skin);
   engine->update(std::move(fibers));
   return engine;
@@ -295,12 +297,12 @@ void bind_engine(py::module& module) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   module.def("engine_names", &engine_names, "Names of all engines, a list of str.");
   py::class_<Engine, Pointer>(module, "Engine", engine_doc)
-      .def(py::init([](const std::string& name, std::int64_t threads, double skin) {
+      .def(py::init([](const std::string& name, std::int64_t threads, std::optional<double> skin) {
              return std::make_shared<Engine>(name, threads, skin);
            }),
-           py::arg("name") = "run_tree", py::arg("threads") = 0, py::arg("skin") = 0.0)
+           py::arg("name") = "run_tree", py::arg("threads") = 0, py::arg("skin") = py::none())
       .def(py::init(&make_updated), py::arg("fibers").none(false), py::arg("name") = "run_tree",
-           py::arg("threads") = 0, py::arg("skin") = 0.0)
+           py::arg("threads") = 0, py::arg("skin") = py::none())
       .def("update", &Engine::update, py::arg("fibers") = nullptr, R"(
 Makes these fibres, as they are now, the ones that queries are about.
 

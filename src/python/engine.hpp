@@ -15,7 +15,7 @@ namespace fiber::python {
 /// waits for them. It keeps the fibres of its last update alive, as they were then.
 class Engine : public OnlyShared {
  public:
-  Engine(std::string name, std::int64_t threads, double skin);
+  Engine(std::string name, std::int64_t threads, std::optional<double> skin);
 
   /// Asks about these fibres, as they are now, from now on.
   /// @param fibers null for those of the last update

@@ -31,11 +31,14 @@ void offer_all(const RunTreeView& a, const RunTreeView& b, PairSink& sink, bool 
 }
 
 void find_some(const RunTreeView& a, const RunTreeView& b, const QueryOptions& options,
-               double moved, PairCollector& collector, QueryCounts& counts) {
+               double moved, PairCollector& collector, const SkinChoice& skin,
+               QueryCounts& counts) {
   CollectorSink sink(collector, moved);
   offer_all(
       a, b, sink, options.deadline > 0.0, [&] { return collector.done_by_now(); }, counts);
   collector.finish();
+  skin.note_found(counts.primitive_tests);
+  skin.note_query(counts);
 }
 
 /// Points that move further than any engine allows are beyond the range of float.
@@ -44,16 +47,6 @@ void check_ways(const RunTree& tree, const FiberAssembly& before, const FiberAss
   if (tree.is_unbounded()) {
     SweptFibers().update(before, after, tree.origin_after() - tree.origin());
   }
-}
-
-/// An engine's option [m], if it is finite and not negative.
-/// @throws std::invalid_argument naming it otherwise
-double checked_length(const std::string& name, double length) {
-  if (!(length >= 0.0 && std::isfinite(length))) {
-    throw std::invalid_argument(name + " is " + std::to_string(length) +
-                                " m, it must be finite and not negative");
-  }
-  return length;
 }
 
 Eigen::Vector3d corner(const float (&by_axis)[3][run_width], std::uint32_t lane) {
@@ -66,7 +59,7 @@ constexpr double max_dirty_part = 0.25;
 }  // namespace
 
 RunTreeEngine::RunTreeEngine(const EngineOptions& options)
-    : arena_(arena_concurrency(options.threads)), skin_(checked_length("skin", options.skin)) {}
+    : arena_(arena_concurrency(options.threads)), skin_(options.skin) {}
 
 EngineFacts RunTreeEngine::facts() const {
   EngineFacts facts;
@@ -82,31 +75,50 @@ EngineFacts RunTreeEngine::facts() const {
 void RunTreeEngine::do_update(const FiberAssembly& fibers, bool same_topology) {
   loops_.reset(fibers);
   arena_.execute([&] {
+    const auto tree_fibers = [&] { return TreeFibers(fibers, hierarchy_origin(fibers)); };
     if (!same_topology) {
-      tree_.build({fibers, hierarchy_origin(fibers)});
-      start_anew(fibers);
-      return;
+      tree_.build(tree_fibers());
+      forget(fibers);
+    } else if (tree_.moves()) {
+      tree_.update(tree_fibers());
+      forget(fibers);
+    } else {
+      skin_.end_frame();
+      if (!skin_.asks_for_motion()) {
+        tree_.update(tree_fibers());
+        start_anew(fibers, nullptr);
+      } else if (!tree_still_serves(fibers)) {
+        tree_.update(tree_fibers());
+        if (!std::isfinite(moved_)) {
+          forget(fibers);
+        } else if (!most_still_serve(fibers)) {
+          start_anew(fibers, &motion_.by_fiber());
+        }
+      }
     }
-    const bool has_skin = skin_ > 0.0 && !tree_.moves();
-    if (has_skin && tree_still_serves(fibers)) {
-      return;
-    }
-    tree_.update({fibers, hierarchy_origin(fibers)});
-    if (has_skin && most_still_serve(fibers)) {
-      return;
-    }
-    start_anew(fibers);
   });
 }
 
-/// With a tree that has been fitted: forgets where the fibres were.
-void RunTreeEngine::start_anew(const FiberAssembly& fibers) {
+/// With a tree that has been fitted: all candidates are looked for anew.
+/// @param moved [m] by each fibre since that was so last; none: not known
+void RunTreeEngine::start_anew(const FiberAssembly& fibers, const std::vector<double>* moved) {
+  skin_.begin_stretch(fibers, moved);
+  begin_to_serve(fibers);
+}
+
+/// The same for fibres of which nothing is known from the frames before.
+void RunTreeEngine::forget(const FiberAssembly& fibers) {
+  skin_.start();
+  begin_to_serve(fibers);
+}
+
+void RunTreeEngine::begin_to_serve(const FiberAssembly& fibers) {
   ++refit_count_;
+  skin_.note_fit(fibers.segment_count());
   moved_ = 0.0;
   moved_before_fit_ = 0.0;
-  has_served_ = false;
   cache_.become(CandidateCache::State::NONE);
-  if (skin_ > 0.0) {
+  if (skin_.asks_for_motion()) {
     motion_.start(fibers);
   }
 }
@@ -114,24 +126,26 @@ void RunTreeEngine::start_anew(const FiberAssembly& fibers) {
 /// Whether the points are close enough to where the tree has them; notes how close.
 bool RunTreeEngine::tree_still_serves(const FiberAssembly& fibers) {
   moved_ = motion_.measure(fibers);
+  skin_.note_motion(fibers.point_count());
   // Two segments may have come towards each other.
-  const bool serves = 2.0 * moved_ <= skin_;
-  skin_pays_ = serves || has_served_;
-  has_served_ = has_served_ || serves;
+  const bool serves = 2.0 * moved_ <= skin_.skin() && !skin_.lasts_too_long();
+  if (serves) {
+    skin_.go_on();
+  }
   return serves;
 }
 
 /// With a tree that has been fitted: if few fibres have moved far, measures their motion from here,
 /// and has only their candidates looked for anew.
 bool RunTreeEngine::most_still_serve(const FiberAssembly& fibers) {
-  if (!std::isfinite(moved_)) {
+  if (skin_.lasts_too_long() || skin_.skin() == 0.0) {
     return false;
   }
   if (cache_.state() != CandidateCache::State::STALE) {
     dirty_.clear();
   }
   // Those that are far from the limit are left where they are; the others would follow soon.
-  const double limit = skin_ / 4.0;
+  const double limit = skin_.skin() / 4.0;
   double of_others = 0.0;
   const std::vector<double>& moved = motion_.by_fiber();
   for (std::uint32_t fiber = 0; fiber < fibers.fiber_count(); ++fiber) {
@@ -155,8 +169,8 @@ bool RunTreeEngine::most_still_serve(const FiberAssembly& fibers) {
   cache_.become(CandidateCache::State::STALE);
   moved_ = of_others;
   moved_before_fit_ = of_others;
-  skin_pays_ = true;
-  has_served_ = true;
+  skin_.note_fit(fibers.segment_count());
+  skin_.go_on();
   ++refit_count_;
   ++partial_count_;
   return true;
@@ -173,7 +187,8 @@ void RunTreeEngine::do_query(const FiberAssembly& fibers, const QueryOptions& op
     left.deadline = limits.deadline.left();
   }
   PairCollector collector(fibers, left, result, &loops_);
-  find_some(tree_.view(), tree_.view(), left, 2.0 * moved_since_fit(), collector, result.counts);
+  find_some(tree_.view(), tree_.view(), left, 2.0 * moved_since_fit(), collector, skin_,
+            result.counts);
 }
 
 void RunTreeEngine::do_query_shape(const FiberAssembly& shape, const FiberAssembly& fibers,
@@ -190,12 +205,15 @@ void RunTreeEngine::do_query_shape(const FiberAssembly& shape, const FiberAssemb
           batch.find(shape_tree.view(), tree_.view(), test, moved_since_fit(), limits, result);
     });
     if (is_found) {
+      skin_.note_found(result.counts.primitive_tests);
+      skin_.note_query(result.counts);
       return;
     }
     left.deadline = limits.deadline.left();
   }
   PairCollector collector(shape, fibers, left, result);
-  find_some(shape_tree.view(), tree_.view(), left, moved_since_fit(), collector, result.counts);
+  find_some(shape_tree.view(), tree_.view(), left, moved_since_fit(), collector, skin_,
+            result.counts);
 }
 
 void RunTreeEngine::offer_pairs(PairSink& sink, const std::function<bool()>& is_over,
@@ -218,22 +236,29 @@ void RunTreeEngine::offer_pairs_with(const FiberAssembly& shape, PairSink& sink,
 bool RunTreeEngine::find_own(const NarrowPhase& test, const QueryOptions& options,
                              const QueryLimits& limits, QueryResult& result) const {
   // Which pairs a length leaves out changes as fibres stretch: such candidates cannot be kept.
-  const bool keeps =
-      skin_ > 0.0 && skin_pays_ && options.neighbour_skip_length.value_or(0.0) == 0.0;
+  const bool keeps = skin_.keeps_pairs() && options.neighbour_skip_length.value_or(0.0) == 0.0;
   bool is_found = false;
   with_batch([&](ContactBatch& batch) {
     if (keeps) {
-      const Candidates candidates = current_candidates(test, options, limits, batch, result.counts);
+      QueryLimits affordable = limits;
+      affordable.pairs = std::min(limits.pairs, skin_.most_pairs());
+      const Candidates candidates =
+          current_candidates(test, options, affordable, batch, result.counts);
       if (candidates.found != ContactBatch::Found::TOO_MANY) {
         batch.evaluate(*candidates.keys, candidates.found == ContactBatch::Found::ALL, test, limits,
                        result);
         is_found = true;
         return;
       }
+      if (affordable.pairs < limits.pairs) {
+        skin_.note_too_many();
+      }
     }
     is_found =
         batch.find(tree_.view(), tree_.view(), test, 2.0 * moved_since_fit(), limits, result);
+    skin_.note_found(result.counts.primitive_tests);
   });
+  skin_.note_query(result.counts);
   return is_found;
 }
 
@@ -248,13 +273,14 @@ RunTreeEngine::Candidates RunTreeEngine::current_candidates(const NarrowPhase& t
     return {keys, keys->size() > limits.pairs ? Found::TOO_MANY : Found::ALL};
   }
   // Since the tree was fitted, two segments can each have come back by what they had moved before.
-  const double reach = options.margin + skin_ + 2.0 * moved_before_fit_;
+  const double reach = options.margin + skin_.skin() + 2.0 * moved_before_fit_;
   const CandidateCache::Keys old = cache_.find(options, CandidateCache::State::STALE);
   const CandidateCache::Keys keys = cache_.make();
   const Found found =
       old != nullptr
           ? batch.replace(*old, dirty_, tree_.view(), test, reach, limits, *keys, counts)
           : batch.collect(tree_.view(), tree_.view(), test, reach, limits, false, *keys, counts);
+  skin_.note_found(keys->size());
   if (found == Found::ALL) {
     cache_.keep(options, keys);
   }
@@ -274,7 +300,7 @@ void RunTreeEngine::do_update_motion(const FiberAssembly& before, const FiberAss
     } else {
       tree_.build(fibers);
     }
-    start_anew(before);
+    forget(before);
   });
   check_ways(tree_, before, after);
 }

@@ -10,13 +10,14 @@
 #include "src/query/candidate_cache.hpp"
 #include "src/query/contact_batch.hpp"
 #include "src/query/idle_memory.hpp"
+#include "src/query/skin_choice.hpp"
 
 namespace fiber {
 
-/// `run_tree`, the fast engine. With a skin, the tree stays where it is while points move by at
-/// most half of it: all bounds are larger by what they have moved, and the candidates of one query
-/// serve the next ones. When few fibres have moved further, only their candidates are looked for
-/// anew.
+/// `run_tree`, the fast engine. With a skin, which it chooses itself unless there is a fixed one,
+/// the tree stays where it is while points move by at most half of it: all bounds are larger by
+/// what they have moved, and the candidates of one query serve the next ones. When few fibres have
+/// moved further, only their candidates are looked for anew.
 class FIBER_PROXIMITY_EXPORT RunTreeEngine final : public ProximityEngine {
  public:
   /// @throws std::invalid_argument for a skin that is negative or not finite
@@ -32,6 +33,9 @@ class FIBER_PROXIMITY_EXPORT RunTreeEngine final : public ProximityEngine {
   /// Offers pairs of a segment of the shape (a) and one of its fibres (b).
   void offer_pairs_with(const FiberAssembly& shape, PairSink& sink,
                         const std::function<bool()>& is_over, QueryCounts& counts) const;
+
+  /// [m] The skin that there is now: the fixed one, or that chosen last.
+  double skin() const { return skin_.skin(); }
 
   /// How often updates have moved the tree.
   std::uint64_t refit_count() const { return refit_count_; }
@@ -55,7 +59,9 @@ class FIBER_PROXIMITY_EXPORT RunTreeEngine final : public ProximityEngine {
  private:
   bool tree_still_serves(const FiberAssembly& fibers);
   bool most_still_serve(const FiberAssembly& fibers);
-  void start_anew(const FiberAssembly& fibers);
+  void start_anew(const FiberAssembly& fibers, const std::vector<double>* moved);
+  void forget(const FiberAssembly& fibers);
+  void begin_to_serve(const FiberAssembly& fibers);
   double moved_since_fit() const { return moved_ + moved_before_fit_; }
 
   struct Candidates {
@@ -73,15 +79,13 @@ class FIBER_PROXIMITY_EXPORT RunTreeEngine final : public ProximityEngine {
   void with_batch(const Call& call) const;
 
   mutable tbb::task_arena arena_;
-  const double skin_;  // [m]
+  SkinChoice skin_;
   RunTree tree_;
   MotionBound motion_;
   double moved_ = 0.0;             // [m] at most, since motion is measured
   double moved_before_fit_ = 0.0;  // [m] of that when the tree was fitted
   std::uint64_t refit_count_ = 0;
   std::uint64_t partial_count_ = 0;
-  bool has_served_ = false;  // the tree, an update after the one that fitted it
-  bool skin_pays_ = true;    // the tree has served so, or the one before it had
   mutable CandidateCache cache_;
   DirtySegments dirty_;  // what makes the kept candidates STALE
   LoopTest loops_;

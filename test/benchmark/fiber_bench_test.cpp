@@ -1,7 +1,9 @@
 // fiber_bench: what engines cost, and command lines.
 #include "test/benchmark/fiber_bench.hpp"
 
+#include <fstream>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <vector>
 
 namespace fiber::test {
@@ -107,11 +109,13 @@ TEST_F(FiberBench, ASkinKeepsTheTreeForAsManyFramesAsItLasts) {
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(result.err, "") << "progress is for terminals";
   const std::vector<nlohmann::json> rows = json_lines(result.out);
-  ASSERT_EQ(rows.size(), 3U);
+  ASSERT_EQ(rows.size(), 4U);
   const std::vector<double> skins{0.0, 0.1, 0.6};
   // Two points may have come nearer by twice the motion: 0.1 does not last one frame, 0.6 three.
   const std::vector<int> refits{12, 12, 3};
-  for (std::size_t i = 0; i < rows.size(); ++i) {
+  EXPECT_EQ(rows[3].at("skin_lengths"), "automatic");
+  EXPECT_EQ(rows[3].at("pairs"), rows[0].at("pairs"));
+  for (std::size_t i = 0; i < skins.size(); ++i) {
     EXPECT_EQ(rows[i].at("scene"), "curly");
     EXPECT_EQ(rows[i].at("engine"), "run_tree");
     EXPECT_EQ(rows[i].at("segments"), 4700);
@@ -135,11 +139,65 @@ TEST_F(FiberBench, ASkinKeepsTheCandidatesOfFibersThatStandStill) {
       "--json");
   EXPECT_EQ(result.exit_code, 0) << result.err;
   const std::vector<nlohmann::json> rows = json_lines(result.out);
-  ASSERT_EQ(rows.size(), 2U);
+  ASSERT_EQ(rows.size(), 3U);
   EXPECT_EQ(rows[0].at("partial"), 0);
   EXPECT_EQ(rows[1].at("partial"), 6);
   EXPECT_EQ(rows[1].at("moving"), 0.1);
   EXPECT_EQ(rows[1].at("pairs"), rows[0].at("pairs"));
+}
+
+/// Two cables that come nearer to each other, one of them at a time, and touch in the last frames.
+std::string file_of_frames(const std::string& name, int frames, int points_of_last = 3) {
+  const std::string path = testing::TempDir() + name;
+  std::ofstream file(path);
+  file << "frame,fiber,x,y,z,radius\n";
+  for (int frame = 0; frame < frames; ++frame) {
+    const int points = frame + 1 == frames ? points_of_last : 3;
+    for (int fiber = 0; fiber < 2; ++fiber) {
+      for (int point = 0; point < points; ++point) {
+        file << frame << ',' << fiber << ',' << point << ',' << fiber * (0.5 - 0.05 * frame)
+             << ",0,0.15\n";
+      }
+    }
+  }
+  return path;
+}
+
+TEST_F(FiberBench, MeasuresAUsersOwnFrames) {
+  const std::string file = file_of_frames("frames.csv", 6);
+  const std::vector<nlohmann::json> engines = json_lines(
+      bench("cycle --scene " + file + " --engines run_tree,brute_force --repeats 5 --json").out);
+  ASSERT_EQ(engines.size(), 2U);
+  for (const nlohmann::json& row : engines) {
+    EXPECT_EQ(row.at("segments"), 4);
+    EXPECT_GE(row.at("pairs"), 2) << "frame 5 has contacts";
+  }
+  // There, 5 frames, and back: no contacts again in frame 10.
+  const ProcessResult back =
+      bench("update --scene " + file + " --engines run_tree --repeats 10 --json");
+  EXPECT_EQ(json_lines(back.out).at(0).at("pairs"), 0) << back.err;
+  const std::vector<nlohmann::json> skins =
+      json_lines(bench("coherence --scene " + file + " --frames 8 --skins 0 --json").out);
+  ASSERT_EQ(skins.size(), 2U);
+  // One of the two moves by 0.05 of a segment.
+  EXPECT_NEAR(skins[0].at("motion"), 0.025, 1e-12);
+}
+
+TEST_F(FiberBench, HasTheOneFrameOfAFileSway) {
+  const std::string file = file_of_frames("one_frame.csv", 1);
+  const std::vector<nlohmann::json> skins = json_lines(
+      bench("coherence --scene " + file + " --frames 8 --motion 0.03 --skins 0 --json").out);
+  ASSERT_EQ(skins.size(), 2U);
+  EXPECT_NEAR(skins[0].at("motion"), 0.03, 1e-9);
+}
+
+TEST_F(FiberBench, RefusesFilesThatCannotBeMeasured) {
+  EXPECT_TRUE(refused(bench("cycle --scene nowhere.csv"), "nowhere.csv"));
+  EXPECT_TRUE(refused(bench("cycle --scene " + file_of_frames("other.csv", 3, 2)),
+                      "frame 2 has other fibres, numbers of points or radii than the first"));
+  EXPECT_TRUE(refused(bench("cycle --scale 2 --scene " + file_of_frames("scaled.csv", 2)),
+                      "scale is of the package's scenes"));
+  EXPECT_TRUE(refused(bench("cycle --scene stew"), "unknown scene 'stew'"));
 }
 
 TEST_F(FiberBench, PrintsATableOfSkinsWithoutJson) {

@@ -50,6 +50,7 @@ TEST_F(Accuracy, CsvHasARowForEachQuestionAndSetting) {
     EXPECT_EQ(count(question + ",exact,kernel,"), 1);
     EXPECT_EQ(count(question + ",deadline at "), 3);
     EXPECT_EQ(count(question + ",skin of "), 2);
+    EXPECT_EQ(count(question + ",no skin,"), 1);
   }
   EXPECT_EQ(count("closest,tolerance of "), 4);
   EXPECT_EQ(count("all,tolerance of "), 0);

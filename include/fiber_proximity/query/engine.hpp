@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,9 +33,10 @@ struct EngineOptions {
   std::uint32_t threads = 0;
 
   /// [m] finite, >= 0. Pairs up to this far beyond the margin are kept, too, and serve as long as
-  /// no two points have moved by more than this together; 0 looks for them in every query. Pays for
-  /// slow motion: several times what points move from frame to frame.
-  double skin = 0.0;
+  /// no two points have moved by more than this together; 0 looks for them in every query. Without
+  /// a value the engine chooses by what points move and what its frames cost, where frames of one
+  /// topology follow each other.
+  std::optional<double> skin;
 };
 
 /// Memory and work of an engine since its last update.

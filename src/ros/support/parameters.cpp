@@ -60,9 +60,9 @@ bool is_allowed(const Parameter& parameter, const XmlRpcValue& value) {
     case XmlRpcValue::TypeDouble:
       return parameter.type == "double" && is_in_range(static_cast<const double&>(value));
     case XmlRpcValue::TypeString:
-      return parameter.type == "str" &&
-             (values.empty() || std::find(values.begin(), values.end(),
-                                          static_cast<const std::string&>(value)) != values.end());
+      return (parameter.type == "str" && values.empty()) ||
+             std::find(values.begin(), values.end(), static_cast<const std::string&>(value)) !=
+                 values.end();
     default:
       return false;
   }

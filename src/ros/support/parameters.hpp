@@ -4,6 +4,7 @@
 #include <xmlrpcpp/XmlRpcValue.h>
 
 #include <cstdint>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
@@ -24,7 +25,7 @@ struct Parameter {
   XmlRpc::XmlRpcValue value;  ///< where it is not set; not valid: code knows what to do
   double min;                 ///< of a number
   double max;                 ///< of a number
-  std::vector<std::string> values;  ///< those of a str; empty: any
+  std::vector<std::string> values;  ///< those of a str, empty: any; words that a number may be
   std::string must_be;              ///< what is allowed, for errors
   bool is_dynamic;                  ///< can change while the node runs
 };
@@ -71,6 +72,16 @@ class Parameters {
     using Stored = std::conditional_t<std::is_same_v<Value, std::uint32_t>, int, Value>;
     const XmlRpc::XmlRpcValue found = read_checked(name);
     value = static_cast<Value>(static_cast<const Stored&>(found));
+  }
+
+  /// Reads a number that may be a word instead: that leaves no value.
+  /// @throws std::invalid_argument as read()
+  void read(const std::string& name, std::optional<double>& value) const {
+    const XmlRpc::XmlRpcValue found = read_checked(name);
+    value.reset();
+    if (found.getType() == XmlRpc::XmlRpcValue::TypeDouble) {
+      value = static_cast<const double&>(found);
+    }
   }
 
   /// Reads a list; one that is not set leaves the value as it is.
