@@ -61,6 +61,7 @@ class SkinRun {
     update_ms_.push_back(time_of([&] { engine_.update(fibers); }));
     detect_ms_.push_back(time_of([&] { engine_.query(QueryOptions(), result); }));
     pairs_ = result.contacts.size();
+    counts_ += result.counts;
   }
 
   BenchmarkRow skin_lengths() const {
@@ -75,6 +76,7 @@ class SkinRun {
   std::uint64_t partial() const { return engine_.partial_count() - partial_before_; }
   std::size_t memory_bytes() const { return engine_.facts().memory_bytes; }
   std::size_t pairs() const { return pairs_; }
+  const QueryCounts& counts() const { return counts_; }
 
  private:
   static EngineOptions options(const std::optional<double>& skin_lengths, double segment_length,
@@ -94,6 +96,7 @@ class SkinRun {
   std::vector<double> update_ms_;
   std::vector<double> detect_ms_;
   std::size_t pairs_ = 0;
+  QueryCounts counts_;  // of all frames
 };
 
 /// A swaying scene, and run_tree on it with every skin.
@@ -177,6 +180,8 @@ class Coherence {
                      {"refits", run->refits()},
                      {"partial", run->partial()},
                      {"pairs", run->pairs()},
+                     {"node_tests", run->counts().node_tests},
+                     {"primitive_tests", run->counts().primitive_tests},
                      {"bytes_per_segment", static_cast<double>(run->memory_bytes()) / segments}});
     }
   }

@@ -134,6 +134,32 @@ ContactBatch::Found ContactBatch::collect(const RunTreeView& a, const RunTreeVie
   return complete ? Found::ALL : Found::SOME;
 }
 
+SearchSize ContactBatch::estimate(const RunTreeView& tree, const NarrowPhase& test, double bound,
+                                  bool prunes) {
+  // A larger part tells more than costs need; much more than any skin can pay for is enough to
+  // know.
+  constexpr std::uint32_t least_groups = 32;
+  constexpr std::uint32_t part = 64;
+  constexpr std::uint64_t most_pairs = 1U << 18U;
+  const std::uint32_t groups = tree.group_count();
+  const std::uint32_t wanted = std::max(least_groups, groups / part);
+  const std::uint32_t stride = std::max(1U, groups / wanted);
+  QueryLimits limits{QueryOptions()};
+  limits.pairs = most_pairs;
+  CandidateCount count(limits);
+  keys_.clear();
+  CandidateSink sink(test, round_up(bound), prunes, count, keys_);
+  QueryCounts counts;
+  std::uint32_t searched = 0;
+  for (std::uint32_t group = stride / 2; group < groups && !count.is_too_much(); group += stride) {
+    find_near_segments(tree, group, group + 1, tree, sink, counts.node_tests, counts.node_overlaps);
+    ++searched;
+  }
+  const double scale = searched == 0 ? 0.0 : static_cast<double>(groups) / searched;
+  return {scale * static_cast<double>(counts.node_tests),
+          scale * static_cast<double>(keys_.size())};
+}
+
 ContactBatch::Found ContactBatch::replace(const std::vector<std::uint64_t>& old_keys,
                                           const DirtySegments& dirty, const RunTreeView& tree,
                                           const NarrowPhase& test, double bound,

@@ -9,6 +9,7 @@
 #include "src/hierarchy/run_tree_kernels.hpp"
 #include "src/query/candidate_cache.hpp"
 #include "src/query/contact_evaluator.hpp"
+#include "src/query/skin_choice.hpp"
 
 namespace fiber {
 
@@ -32,6 +33,10 @@ class ContactBatch {
   Found collect(const RunTreeView& a, const RunTreeView& b, const NarrowPhase& test, double bound,
                 const QueryLimits& limits, bool prunes, std::vector<std::uint64_t>& keys,
                 QueryCounts& counts);
+
+  /// The size of a search of a tree with itself within a bound [m], by a part of it: some groups of
+  /// segments, spread over all. Pairs that the whole search would come upon, left-out ones apart.
+  SearchSize estimate(const RunTreeView& tree, const NarrowPhase& test, double bound, bool prunes);
 
   /// Reuses candidates of a tree with itself that were collected before: those of dirty
   /// segments are left out and looked for anew.

@@ -31,14 +31,11 @@ void offer_all(const RunTreeView& a, const RunTreeView& b, PairSink& sink, bool 
 }
 
 void find_some(const RunTreeView& a, const RunTreeView& b, const QueryOptions& options,
-               double moved, PairCollector& collector, const SkinChoice& skin,
-               QueryCounts& counts) {
+               double moved, PairCollector& collector, QueryCounts& counts) {
   CollectorSink sink(collector, moved);
   offer_all(
       a, b, sink, options.deadline > 0.0, [&] { return collector.done_by_now(); }, counts);
   collector.finish();
-  skin.note_found(counts.primitive_tests);
-  skin.note_query(counts);
 }
 
 /// Points that move further than any engine allows are beyond the range of float.
@@ -114,7 +111,6 @@ void RunTreeEngine::forget(const FiberAssembly& fibers) {
 
 void RunTreeEngine::begin_to_serve(const FiberAssembly& fibers) {
   ++refit_count_;
-  skin_.note_fit(fibers.segment_count());
   moved_ = 0.0;
   moved_before_fit_ = 0.0;
   cache_.become(CandidateCache::State::NONE);
@@ -126,7 +122,6 @@ void RunTreeEngine::begin_to_serve(const FiberAssembly& fibers) {
 /// Whether the points are close enough to where the tree has them; notes how close.
 bool RunTreeEngine::tree_still_serves(const FiberAssembly& fibers) {
   moved_ = motion_.measure(fibers);
-  skin_.note_motion(fibers.point_count());
   // Two segments may have come towards each other.
   const bool serves = 2.0 * moved_ <= skin_.skin() && !skin_.lasts_too_long();
   if (serves) {
@@ -169,7 +164,6 @@ bool RunTreeEngine::most_still_serve(const FiberAssembly& fibers) {
   cache_.become(CandidateCache::State::STALE);
   moved_ = of_others;
   moved_before_fit_ = of_others;
-  skin_.note_fit(fibers.segment_count());
   skin_.go_on();
   ++refit_count_;
   ++partial_count_;
@@ -181,14 +175,13 @@ void RunTreeEngine::do_query(const FiberAssembly& fibers, const QueryOptions& op
   QueryOptions left = options;
   if (options.type == QueryType::ALL) {
     const QueryLimits limits(options);
-    if (find_own(NarrowPhase(fibers, options, &loops_), options, limits, result)) {
+    if (find_own(fibers, NarrowPhase(fibers, options, &loops_), options, limits, result)) {
       return;
     }
     left.deadline = limits.deadline.left();
   }
   PairCollector collector(fibers, left, result, &loops_);
-  find_some(tree_.view(), tree_.view(), left, 2.0 * moved_since_fit(), collector, skin_,
-            result.counts);
+  find_some(tree_.view(), tree_.view(), left, 2.0 * moved_since_fit(), collector, result.counts);
 }
 
 void RunTreeEngine::do_query_shape(const FiberAssembly& shape, const FiberAssembly& fibers,
@@ -205,15 +198,12 @@ void RunTreeEngine::do_query_shape(const FiberAssembly& shape, const FiberAssemb
           batch.find(shape_tree.view(), tree_.view(), test, moved_since_fit(), limits, result);
     });
     if (is_found) {
-      skin_.note_found(result.counts.primitive_tests);
-      skin_.note_query(result.counts);
       return;
     }
     left.deadline = limits.deadline.left();
   }
   PairCollector collector(shape, fibers, left, result);
-  find_some(shape_tree.view(), tree_.view(), left, moved_since_fit(), collector, skin_,
-            result.counts);
+  find_some(shape_tree.view(), tree_.view(), left, moved_since_fit(), collector, result.counts);
 }
 
 void RunTreeEngine::offer_pairs(PairSink& sink, const std::function<bool()>& is_over,
@@ -233,33 +223,41 @@ void RunTreeEngine::offer_pairs_with(const FiberAssembly& shape, PairSink& sink,
 
 /// All contacts of the fibres with each other: from candidates that are kept, if there are such.
 /// @return false, with no answer, if more pairs would have to be examined than may be
-bool RunTreeEngine::find_own(const NarrowPhase& test, const QueryOptions& options,
-                             const QueryLimits& limits, QueryResult& result) const {
-  // Which pairs a length leaves out changes as fibres stretch: such candidates cannot be kept.
-  const bool keeps = skin_.keeps_pairs() && options.neighbour_skip_length.value_or(0.0) == 0.0;
+bool RunTreeEngine::find_own(const FiberAssembly& fibers, const NarrowPhase& test,
+                             const QueryOptions& options, const QueryLimits& limits,
+                             QueryResult& result) const {
   bool is_found = false;
   with_batch([&](ContactBatch& batch) {
-    if (keeps) {
-      QueryLimits affordable = limits;
-      affordable.pairs = std::min(limits.pairs, skin_.most_pairs());
-      const Candidates candidates =
-          current_candidates(test, options, affordable, batch, result.counts);
-      if (candidates.found != ContactBatch::Found::TOO_MANY) {
-        batch.evaluate(*candidates.keys, candidates.found == ContactBatch::Found::ALL, test, limits,
-                       result);
-        is_found = true;
-        return;
-      }
-      if (affordable.pairs < limits.pairs) {
-        skin_.note_too_many();
-      }
+    // Which pairs a length leaves out changes as fibres stretch: such candidates cannot be kept.
+    if (options.neighbour_skip_length.value_or(0.0) == 0.0) {
+      skin_.decide(fibers, [&](double skin) {
+        return batch.estimate(tree_.view(), test, options.margin + skin, skin == 0.0);
+      });
+      is_found = skin_.keeps_pairs() && find_kept(test, options, limits, batch, result);
     }
-    is_found =
-        batch.find(tree_.view(), tree_.view(), test, 2.0 * moved_since_fit(), limits, result);
-    skin_.note_found(result.counts.primitive_tests);
+    is_found = is_found || batch.find(tree_.view(), tree_.view(), test, 2.0 * moved_since_fit(),
+                                      limits, result);
   });
-  skin_.note_query(result.counts);
   return is_found;
+}
+
+/// The same from candidates that are kept, or will be.
+/// @return false, with no answer, if there are too many
+bool RunTreeEngine::find_kept(const NarrowPhase& test, const QueryOptions& options,
+                              const QueryLimits& limits, ContactBatch& batch,
+                              QueryResult& result) const {
+  QueryLimits kept = limits;
+  kept.pairs = std::min(limits.pairs, skin_.most_pairs());
+  const Candidates candidates = current_candidates(test, options, kept, batch, result.counts);
+  if (candidates.found == ContactBatch::Found::TOO_MANY) {
+    if (kept.pairs < limits.pairs) {
+      skin_.give_up();
+    }
+    return false;
+  }
+  batch.evaluate(*candidates.keys, candidates.found == ContactBatch::Found::ALL, test, limits,
+                 result);
+  return true;
 }
 
 /// Candidates that serve until motion exceeds the skin: kept ones, as far as there are such.
@@ -280,7 +278,6 @@ RunTreeEngine::Candidates RunTreeEngine::current_candidates(const NarrowPhase& t
       old != nullptr
           ? batch.replace(*old, dirty_, tree_.view(), test, reach, limits, *keys, counts)
           : batch.collect(tree_.view(), tree_.view(), test, reach, limits, false, *keys, counts);
-  skin_.note_found(keys->size());
   if (found == Found::ALL) {
     cache_.keep(options, keys);
   }

@@ -71,15 +71,17 @@ class FIBER_PROXIMITY_EXPORT RunTreeEngine final : public ProximityEngine {
   Candidates current_candidates(const NarrowPhase& test, const QueryOptions& options,
                                 const QueryLimits& limits, ContactBatch& batch,
                                 QueryCounts& counts) const;
-  bool find_own(const NarrowPhase& test, const QueryOptions& options, const QueryLimits& limits,
-                QueryResult& result) const;
+  bool find_own(const FiberAssembly& fibers, const NarrowPhase& test, const QueryOptions& options,
+                const QueryLimits& limits, QueryResult& result) const;
+  bool find_kept(const NarrowPhase& test, const QueryOptions& options, const QueryLimits& limits,
+                 ContactBatch& batch, QueryResult& result) const;
 
   /// Calls with memory that queries which run at the same time do not share.
   template <class Call>
   void with_batch(const Call& call) const;
 
   mutable tbb::task_arena arena_;
-  SkinChoice skin_;
+  mutable SkinChoice skin_;
   RunTree tree_;
   MotionBound motion_;
   double moved_ = 0.0;             // [m] at most, since motion is measured

@@ -8,25 +8,23 @@
 namespace fiber {
 namespace {
 
-// [ns] What one takes on one thread (docs/performance.md says how that was measured).
-constexpr double fit_ns = 12.0;    // a segment
-constexpr double motion_ns = 3.0;  // a point
-constexpr double test_ns = 8.0;    // a node's children
-constexpr double find_ns = 30.0;   // a pair that a search comes upon, its sorting included
-constexpr double judge_ns = 80.0;  // a pair
+// [ns] What one takes on one thread: least squares over `fiber_bench coherence --json` on six
+// scenes with five skins (Intel Xeon, 2026-11-28).
+constexpr double fit_ns = 11.0;    // a segment
+constexpr double motion_ns = 3.6;  // a point
+constexpr double test_ns = 6.6;    // a node's children
+constexpr double find_ns = 160.0;  // a pair that a search comes upon, its sorting included
+constexpr double judge_ns = 30.0;  // a pair
 
-constexpr double first_frames = 4.0;  // that the first skin lasts for
+constexpr double first_frames = 4.0;  // that the first skin thought of lasts for
 constexpr double least_frames = 2.0;
 constexpr double most_frames = 4096.0;
+constexpr double step = 1.5;                 // from one skin that is thought of to the next
 constexpr double least_skin = 1e-150;        // [m]
 constexpr std::uint32_t longest_wait = 256;  // [frames]
 
 // A skin must save this part of a frame, as costs are estimates.
 constexpr double least_gain = 0.05;
-
-// Pairs beyond those that there are without a skin grow with this power of it: between those along
-// lines that cross (1) and those within a volume (2).
-constexpr double growth = 1.5;
 
 // The part of the segments by whose motion the skin goes. The others may be looked for anew alone
 // (RunTreeEngine::most_still_serve).
@@ -47,110 +45,110 @@ SkinChoice::SkinChoice(const std::optional<double>& fixed)
     : is_automatic_(!fixed), skin_(checked(fixed)), pays_(skin_ > 0.0) {}
 
 void SkinChoice::start() {
+  frames_ = 0;
   if (is_automatic_) {
     do_without();
     wait_ = 1;
     next_wait_ = 2;
+    last_frames_ = first_frames;
+    lasted_ = 1.0;
   }
   pays_ = skin_ > 0.0;
-  frames_ = 0;
-  stretch_ = {};
-  take_work();
-}
-
-void SkinChoice::end_frame() {
-  const Work frame = take_work();
-  stretch_.search += frame.search;
-  stretch_.found += frame.found;
-  stretch_.judged += frame.judged;
-  stretch_.motion += frame.motion;
-  ++frames_;
 }
 
 void SkinChoice::begin_stretch(const FiberAssembly& fibers, const std::vector<double>* moved) {
   if (!is_automatic_) {
     pays_ = skin_ > 0.0 && frames_ > 1;
+  } else if (is_due_) {
+    do_without();  // nobody has asked for what could be kept
   } else if (moved == nullptr) {
-    without_ = stretch_;
     wait_ -= std::min(wait_, 1U);
   } else {
-    if (meant_frames_ == 0.0) {
-      without_ = stretch_;
-      stretch_.motion = motion_ns * static_cast<double>(fibers.point_count());
+    if (frames_meant_ > 0.0) {
+      lasted_ = std::min(4.0, frames_ / frames_meant_);
+      next_wait_ = 1;
     }
-    const double frames = are_too_many_ ? 0.0 : best_frames();
-    if (frames > 0.0) {
-      take(frames, motion_of_most(fibers, *moved) / frames_);
-    } else {
-      do_without();
-    }
+    motion_ = motion_of_most(fibers, *moved) / frames_;
+    frames_meant_ = 0.0;
+    skin_ = 0.0;
+    pays_ = false;
+    is_due_ = true;
   }
   frames_ = 0;
-  stretch_ = {};
-  are_too_many_ = false;
 }
 
-SkinChoice::Work SkinChoice::take_work() {
-  const auto take = [](std::atomic<std::uint64_t>& count, double ns) {
-    return ns * static_cast<double>(count.exchange(0));
-  };
-  Work work;
-  work.search = take(fitted_, fit_ns) + take(node_tests_, test_ns);
-  work.found = take(found_, find_ns);
-  work.judged = take(judged_, judge_ns);
-  work.motion = take(measured_, motion_ns);
-  return work;
-}
-
-/// [ns] a frame, of a skin that is meant to last for so many, as the last stretch was.
-double SkinChoice::cost_with(double frames) const {
-  double more_pairs = 1.0;  // than in the last stretch
-  double lasts = frames;
-  if (meant_frames_ > 0.0) {
-    const double now = stretch_.judged / frames_;
-    const double beyond = std::max(0.0, now - without_.judged);
-    if (now > 0.0) {
-      more_pairs += beyond * (std::pow(frames / meant_frames_, growth) - 1.0) / now;
-    }
-    // Points may not go on as they began.
-    lasts = std::max(1.0, frames * std::min(4.0, frames_ / meant_frames_));
+void SkinChoice::decide(const FiberAssembly& fibers, const Estimate& estimate) {
+  const std::lock_guard lock(mutex_);
+  if (!is_due_) {
+    return;
   }
-  return (stretch_.search + stretch_.found * more_pairs) / lasts +
-         (stretch_.motion + stretch_.judged * more_pairs) / frames_;
-}
-
-/// For how many frames the next skin is to last; 0: none pays.
-double SkinChoice::best_frames() const {
-  const double affordable = (1.0 - least_gain) * without_.sum();
-  if (meant_frames_ == 0.0) {
-    return cost_with(first_frames) < affordable ? first_frames : 0.0;
-  }
-  // What this stretch has cost beyond what was expected, the next one costs, too.
-  const double unexpected = std::max(1.0, stretch_.sum() / frames_ / cost_with(meant_frames_));
+  is_due_ = false;
+  // Two points may come towards each other. Those that stand still are measured by more than
+  // nothing.
+  const auto skin_of = [&](double frames) { return std::max(least_skin, 2.0 * frames * motion_); };
   double best = 0.0;
-  double least = affordable / unexpected;
-  for (const double factor : {0.5, 0.71, 1.0, 1.41, 2.0}) {
-    const double frames = std::clamp(factor * meant_frames_, least_frames, most_frames);
-    const double cost = cost_with(frames);
-    if (cost < least) {
-      least = cost;
-      best = frames;
+  double least = (1.0 - least_gain) * cost(0.0, fibers, estimate(0.0));
+  const auto is_better = [&](double frames) {
+    const SearchSize search = estimate(skin_of(frames));
+    const double now = cost(frames, fibers, search);
+    if (now >= least) {
+      return false;
     }
+    least = now;
+    best = frames;
+    most_pairs_ = static_cast<std::uint64_t>(4.0 * search.pairs) + (1U << 16U);
+    return true;
+  };
+  const double begin = last_frames_;
+  is_better(begin);
+  double frames = begin * step;
+  while (frames <= most_frames && is_better(frames)) {
+    frames *= step;
   }
-  return best;
+  frames = begin / step;
+  while (best <= begin && frames >= least_frames && is_better(frames)) {
+    frames /= step;
+  }
+  if (best == 0.0) {
+    do_without();
+    return;
+  }
+  frames_meant_ = best;
+  last_frames_ = best;
+  skin_ = skin_of(best);
+  pays_ = true;
+}
+
+void SkinChoice::give_up() {
+  const std::lock_guard lock(mutex_);
+  if (is_automatic_) {
+    do_without();
+  }
+}
+
+/// [ns] a frame, of a skin that is meant to last for so many; 0: without one.
+double SkinChoice::cost(double frames, const FiberAssembly& fibers,
+                        const SearchSize& search) const {
+  const double find = fit_ns * static_cast<double>(fibers.segment_count()) +
+                      test_ns * search.node_tests + find_ns * search.pairs;
+  const double judge = judge_ns * search.pairs;
+  if (frames == 0.0) {
+    return find + judge;
+  }
+  // Points may not go on as they began.
+  return find / std::max(1.0, frames * lasted_) +
+         motion_ns * static_cast<double>(fibers.point_count()) + judge;
 }
 
 /// [m] How far those segments have moved that the skin is for: by some fibres, spread over all.
 double SkinChoice::motion_of_most(const FiberAssembly& fibers, const std::vector<double>& moved) {
-  const auto point_count = [&](std::size_t fiber) {
-    return fibers.offsets()[fiber + 1] - fibers.offsets()[fiber];
-  };
   sample_.clear();
-  double left = 0.0;
-  const std::size_t step = 1 + fibers.fiber_count() / most_sampled;
-  for (std::size_t fiber = 0; fiber < fibers.fiber_count(); fiber += step) {
-    sample_.emplace_back(moved[fiber], point_count(fiber));
-    left += followed_part * point_count(fiber);
+  double left = 0.0;  // points
+  const std::size_t stride = 1 + fibers.fiber_count() / most_sampled;
+  for (std::size_t fiber = 0; fiber < fibers.fiber_count(); fiber += stride) {
+    const std::uint32_t points = fibers.offsets()[fiber + 1] - fibers.offsets()[fiber];
+    sample_.emplace_back(moved[fiber], points);
+    left += followed_part * points;
   }
   std::sort(sample_.begin(), sample_.end());
   double motion = 0.0;
@@ -161,21 +159,9 @@ double SkinChoice::motion_of_most(const FiberAssembly& fibers, const std::vector
   return motion;
 }
 
-/// @param motion [m] a frame
-void SkinChoice::take(double frames, double motion) {
-  meant_frames_ = frames;
-  // Two points may come towards each other. Those that stand still are measured by more than
-  // nothing.
-  skin_ = std::max(least_skin, 2.0 * frames * motion);
-  most_pairs_ = static_cast<std::uint64_t>(without_.sum() / judge_ns);
-  pays_ = true;
-  if (frames_ > 1) {
-    next_wait_ = 1;
-  }
-}
-
 void SkinChoice::do_without() {
-  meant_frames_ = 0.0;
+  is_due_ = false;
+  frames_meant_ = 0.0;
   skin_ = 0.0;
   pays_ = false;
   wait_ = next_wait_;

@@ -36,7 +36,7 @@ struct EngineOptions {
   /// no two points have moved by more than this together; 0 looks for them in every query. Without
   /// a value the engine chooses by what points move and what its frames cost, where frames of one
   /// topology follow each other.
-  std::optional<double> skin;
+  std::optional<double> skin{};
 };
 
 /// Memory and work of an engine since its last update.
