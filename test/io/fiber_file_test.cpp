@@ -12,7 +12,7 @@
 namespace fiber {
 namespace {
 
-const FiberAssembly fibers({{1, 2, 3}, {4, 5, 6}}, {0, 2}, {0.5});
+const FiberAssembly one_segment({{1, 2, 3}, {4, 5, 6}}, {0, 2}, {0.5});
 
 const std::vector<std::string> one_frame_formats{"hair", "npz", "tck", "trk", "vtp"};
 
@@ -33,18 +33,18 @@ class FiberFileTest : public testing::Test {
 TEST_F(FiberFileTest, TheNameDecidesTheFormat) {
   for (const std::string name : {"a.hair", "b.HAIR", "hair.csv", "c", ".hair"}) {
     SCOPED_TRACE(name);
-    write_fibers(path(name), {false, {{0, fibers}}});
+    write_fibers(path(name), {false, {{0, one_segment}}});
     const bool is_hair = name == "a.hair" || name == "b.HAIR";
     EXPECT_EQ(start_of(name), is_hair ? "HAIR" : "fibe");
     const FiberFile file = read_fibers(path(name));
-    EXPECT_EQ(file.frames.at(0).fibers.points(), fibers.points());
-    EXPECT_EQ(file.frames.at(0).fibers.radii(), fibers.radii());
+    EXPECT_EQ(file.frames.at(0).fibers.points(), one_segment.points());
+    EXPECT_EQ(file.frames.at(0).fibers.radii(), one_segment.radii());
   }
 }
 
 TEST_F(FiberFileTest, TheDefaultRadiusReachesBoth) {
   std::ofstream(path("a.csv")) << "fiber,x,y,z\n0,0,0,0\n0,1,0,0\n";
-  write_fibers(path("a.hair"), {false, {{0, {fibers.points(), {0, 2}, {0.0}}}}});
+  write_fibers(path("a.hair"), {false, {{0, {one_segment.points(), {0, 2}, {0.0}}}}});
   for (const std::string name : {"a.csv", "a.hair"}) {
     const std::vector<double> radii = read_fibers(path(name), 0.25).frames.at(0).fibers.radii();
     EXPECT_EQ(radii, std::vector<double>{0.25}) << name;
@@ -54,23 +54,23 @@ TEST_F(FiberFileTest, TheDefaultRadiusReachesBoth) {
 TEST_F(FiberFileTest, FormatsOfOneFrameReadWhatTheyWrite) {
   for (const std::string& end : one_frame_formats) {
     SCOPED_TRACE(end);
-    write_fibers(path("a." + end), {false, {{0, fibers}}});
+    write_fibers(path("a." + end), {false, {{0, one_segment}}});
     const FiberAssembly again = read_fibers(path("a." + end)).frames.at(0).fibers;
-    EXPECT_EQ(again.points(), fibers.points());
-    EXPECT_EQ(again.radii(), end == "tck" ? std::vector<double>{0.0} : fibers.radii());
-    EXPECT_THROW(write_fibers(path("b." + end), {true, {{3, fibers}}}), std::invalid_argument);
+    EXPECT_EQ(again.points(), one_segment.points());
+    EXPECT_EQ(again.radii(), end == "tck" ? std::vector<double>{0.0} : one_segment.radii());
+    EXPECT_THROW(write_fibers(path("b." + end), {true, {{3, one_segment}}}), std::invalid_argument);
     EXPECT_THROW(write_fibers(path("b." + end), {false, {}}), std::invalid_argument);
     EXPECT_FALSE(std::filesystem::exists(path("b." + end)));
   }
 }
 
 TEST_F(FiberFileTest, ManyFramesGoIntoCsvOnly) {
-  write_fibers(path("a.csv"), {true, {{3, fibers}, {5, fibers}}});
+  write_fibers(path("a.csv"), {true, {{3, one_segment}, {5, one_segment}}});
   EXPECT_EQ(read_fibers(path("a.csv")).frames.at(1).frame, 5);
-  EXPECT_THROW(write_fibers(path("a.hair"), {true, {{3, fibers}}}), std::invalid_argument);
+  EXPECT_THROW(write_fibers(path("a.hair"), {true, {{3, one_segment}}}), std::invalid_argument);
   EXPECT_THROW(write_fibers(path("b.hair"), {false, {}}), std::invalid_argument);
   EXPECT_FALSE(std::filesystem::exists(path("a.hair")));
-  EXPECT_THROW(write_fibers(path("c.hair"), {false, {{0, fibers}, {1, fibers}}}),
+  EXPECT_THROW(write_fibers(path("c.hair"), {false, {{0, one_segment}, {1, one_segment}}}),
                std::invalid_argument);
 }
 
@@ -87,7 +87,7 @@ TEST_F(FiberFileTest, NamesOfOtherFormatsAreRefused) {
     return error([&] { read_fibers(path(name)); });
   };
   const auto writing = [&](const std::string& name) {
-    return error([&] { write_fibers(path(name), {false, {{0, fibers}}}); });
+    return error([&] { write_fibers(path(name), {false, {{0, one_segment}}}); });
   };
   const std::string read =
       "; CSV, .hair, .npz, .swc, .tck, .trk, .vtk and .vtp are read, and .h5 by fiber_query_mpi";
@@ -115,8 +115,8 @@ TEST_F(FiberFileTest, NamesOfOtherFormatsAreRefused) {
 TEST_F(FiberFileTest, NamesWhatCannotBeReadOrWritten) {
   EXPECT_THROW(read_fibers(path("missing.hair")), FileError);
   EXPECT_THROW(read_fibers(path("missing.csv")), FileError);
-  EXPECT_THROW(write_fibers("/no/such/a.hair", {false, {{0, fibers}}}), FileError);
-  EXPECT_THROW(write_fibers("/no/such/a.csv", {false, {{0, fibers}}}), FileError);
+  EXPECT_THROW(write_fibers("/no/such/a.hair", {false, {{0, one_segment}}}), FileError);
+  EXPECT_THROW(write_fibers("/no/such/a.csv", {false, {{0, one_segment}}}), FileError);
 }
 
 }  // namespace

@@ -94,12 +94,13 @@ TEST(DistributedMotion, ForgetsWhereOthersWere) {
   expect_what_one_process_finds(*family, 35, rounds(6));
 }
 
-std::string name_of_family(const testing::TestParamInfo<std::size_t>& info) {
+std::string name_of_rank_family(const testing::TestParamInfo<std::size_t>& info) {
   return test_name(rank_families()[info.param].name);
 }
 
 INSTANTIATE_TEST_SUITE_P(Families, DistributedMotionTest,
-                         testing::Range(std::size_t{0}, rank_families().size()), name_of_family);
+                         testing::Range(std::size_t{0}, rank_families().size()),
+                         name_of_rank_family);
 
 /// Walks that come close to each other as they are shaken.
 struct Shaken {

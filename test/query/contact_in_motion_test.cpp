@@ -10,7 +10,7 @@
 namespace fiber::test {
 namespace {
 
-constexpr double radius = 0.002;  // [m] of crossed_cables()
+constexpr double cable_radius = 0.002;  // [m] of crossed_cables()
 
 /// What one engine finds of the only pair that meets.
 MotionContact only_contact(const FiberMotion& motion, const MotionOptions& options) {
@@ -32,7 +32,7 @@ TEST(ContactInMotion, IsSeenWhereItBegins) {
   EXPECT_EQ(first.fiber_b, 1U);
   EXPECT_EQ(first.segment_b, contact.segment_b);
   EXPECT_NEAR(first.distance, 0.0, 1e-9);
-  EXPECT_NEAR(first.point_a.z(), radius, 1e-9);
+  EXPECT_NEAR(first.point_a.z(), cable_radius, 1e-9);
   EXPECT_NEAR(first.point_a.x(), 0.01, 1e-9);
   EXPECT_NEAR(first.normal.z(), 1.0, 1e-9);
   EXPECT_EQ(time_of(contact), contact.upper);
@@ -41,7 +41,7 @@ TEST(ContactInMotion, IsSeenWhereItBegins) {
   without_upper.upper = std::numeric_limits<double>::infinity();
   without_upper.lower = 0.0;
   EXPECT_EQ(time_of(without_upper), 0.0);
-  EXPECT_NEAR(first_contact(motion, motion, without_upper).distance, 0.1 - 2 * radius, 1e-12);
+  EXPECT_NEAR(first_contact(motion, motion, without_upper).distance, 0.1 - 2 * cable_radius, 1e-12);
 }
 
 TEST(ContactInMotion, IsKnownToEnd) {
@@ -54,7 +54,7 @@ TEST(ContactInMotion, IsKnownToEnd) {
     options.tolerance = 1e-9;
     const LastContact last =
         last_contacts(motion, motion, {only_contact(motion, options)}, options).at(0);
-    const double truth = (0.1 + 2 * radius + margin) / 0.4;
+    const double truth = (0.1 + 2 * cable_radius + margin) / 0.4;
     EXPECT_FALSE(last.lasts);
     EXPECT_LE(last.lower, truth);
     EXPECT_GE(last.upper, truth);

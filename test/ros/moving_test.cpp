@@ -21,11 +21,11 @@ using fiber_proximity::Obstacle;
 using fiber_proximity::PredictedContact;
 using fiber_proximity::TimeToContact;
 
-constexpr double radius = 0.01;  // [m] as in moving.test
-constexpr double margin = 0.02;  // [m] the same
-constexpr double horizon = 0.5;  // [s]
-constexpr double period = 0.05;  // [s] between messages
-constexpr std::size_t frames = 4;
+constexpr double fiber_radius = 0.01;  // [m] as in moving.test
+constexpr double node_margin = 0.02;   // [m] the same
+constexpr double horizon = 0.5;        // [s]
+constexpr double period = 0.05;        // [s] between messages
+constexpr std::size_t frame_count = 4;
 
 /// Where something is after some time [s].
 using Way = std::function<Isometry3d(double)>;
@@ -100,7 +100,7 @@ class MovingTest : public node_test::SimulatedTimeTest {
       told = answer();
       return told == nullptr || told->complete != 0;
     }));
-    for (std::size_t i = 0; i < frames && told != nullptr; ++i) {
+    for (std::size_t i = 0; i < frame_count && told != nullptr; ++i) {
       told = answer();
     }
     return told;
@@ -185,11 +185,11 @@ class MovingTest : public node_test::SimulatedTimeTest {
 TEST_F(MovingTest, ALinkThatComesIsExpectedBeforeItTouches) {
   hang_cable({0.5, 0, 0});
   tool_ = [](double time) { return at({0.2 * time, 0, 0}); };
-  expect_until((0.5 - radius - margin - 0.03) / 0.2);
+  expect_until((0.5 - fiber_radius - node_margin - 0.03) / 0.2);
   const TimeToContact& told = *times_.messages.back();
   EXPECT_TRUE(names(told, "at least 4 over 0.2 s (robot/arm, robot/tool)")) << told.assumption;
   EXPECT_TRUE(names(told, "stand still (shelf)")) << told.assumption;
-  EXPECT_EQ(told.frames, frames);
+  EXPECT_EQ(told.frames, frame_count);
 }
 
 TEST_F(MovingTest, AnArmThatTurnsIsExpectedBeforeItTouches) {
@@ -197,7 +197,7 @@ TEST_F(MovingTest, AnArmThatTurnsIsExpectedBeforeItTouches) {
   hang_cable({0.0, 0.5, 0});
   arm_ = [](double time) { return at({0, 0, 0}, rate * time); };
   // Where the arm's side is so far from the cable's axis.
-  const double half_width = std::asin((0.02 + radius + margin) / 0.5);
+  const double half_width = std::asin((0.02 + fiber_radius + node_margin) / 0.5);
   expect_until((std::acos(0.0) - half_width) / rate);
 }
 
@@ -205,7 +205,7 @@ TEST_F(MovingTest, ACableThatFollowsALinkMeetsItWhereThatStops) {
   constexpr double speed = 0.2;  // [m/s]
   constexpr double gap = 0.08;   // [m] beyond the margin
   constexpr double stop = 2.0;   // [s]
-  const double ahead = gap + margin + radius + 0.03;
+  const double ahead = gap + node_margin + fiber_radius + 0.03;
   cable_ = [](double time) { return Vector3d(speed * time, 0, 0); };
   tool_ = [ahead](double time) { return at({speed * (time < stop ? time : stop) + ahead, 0, 0}); };
   settled();
@@ -215,7 +215,7 @@ TEST_F(MovingTest, ACableThatFollowsALinkMeetsItWhereThatStops) {
     EXPECT_FALSE(told->environment.expected);
     EXPECT_EQ(told->environment.time_lower, horizon);
   }
-  for (std::size_t i = 1; i < frames; ++i) {
+  for (std::size_t i = 1; i < frame_count; ++i) {
     answer();
   }
   const TimeToContact* const told = answer();
@@ -286,7 +286,7 @@ TEST_F(MovingTest, AnObstacleThatIsMovedGoesOnAndOneThatIsReplacedStands) {
   }
   ASSERT_NE(told, nullptr);
   EXPECT_TRUE(names(*told, "(ball, robot/arm, robot/tool)")) << told->assumption;
-  expect_in((-0.05 - radius - margin) - (x - 0.05), told->environment);
+  expect_in((-0.05 - fiber_radius - node_margin) - (x - 0.05), told->environment);
   // It goes on for robot_timeout, as nothing tells that it stands.
   for (int i = 0; i < 5; ++i) {
     EXPECT_TRUE(answer()->environment.expected);
@@ -307,7 +307,7 @@ TEST_F(MovingTest, WhatTurnsTooFarIsToldToBeUnknown) {
     told = answer();
     return told == nullptr || (told->horizon == 10.0 && told->environment.time_lower > 0.0);
   }));
-  for (std::size_t i = 0; i < frames; ++i) {
+  for (std::size_t i = 0; i < frame_count; ++i) {
     told = answer();
   }
   ASSERT_NE(told, nullptr);

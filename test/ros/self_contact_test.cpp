@@ -8,7 +8,7 @@ namespace {
 using Eigen::Vector3d;
 using Points = std::vector<Vector3d>;
 
-constexpr int count = 45;
+constexpr int point_count = 45;
 
 Points line(int points, double length, const Vector3d& from) {
   Points line;
@@ -72,15 +72,15 @@ TEST_F(SelfContactTest, StraightCablesHaveNoneAndHairpinsDo) {
     SCOPED_TRACE(length);
     height += 0.1;  // tells the answers apart
     const fiber_proximity::ContactArray* answer =
-        answer_about(line(count, length, Vector3d(0.0, 0.0, height)),
-                     line(count, length, Vector3d(0.5, 0.0, height)));
+        answer_about(line(point_count, length, Vector3d(0.0, 0.0, height)),
+                     line(point_count, length, Vector3d(0.5, 0.0, height)));
     ASSERT_NE(answer, nullptr);
     EXPECT_EQ(answer->contacts.size(), 0U);
     ASSERT_TRUE(answer->has_minimum);
     EXPECT_NE(answer->minimum.fiber_a, answer->minimum.fiber_b);
   }
   const fiber_proximity::ContactArray* answer = answer_about(
-      hairpin(0.004, Vector3d(0.0, 0.0, 1.0)), line(count, 0.6, Vector3d(0.5, 0.0, 1.0)));
+      hairpin(0.004, Vector3d(0.0, 0.0, 1.0)), line(point_count, 0.6, Vector3d(0.5, 0.0, 1.0)));
   ASSERT_NE(answer, nullptr);
   ASSERT_FALSE(answer->contacts.empty());
   for (const fiber_proximity::Contact& contact : answer->contacts) {
@@ -104,7 +104,7 @@ class SelfContactOfOneTest : public node_test::NodeTest {
 TEST_F(SelfContactOfOneTest, AStraightCableHasNoneAndAHairpinDoes) {
   connect(rope_, test_messages::point_cloud2(test_messages::header("world"),
                                              line(11, 0.5, Vector3d::Zero())));
-  for (const int points : {11, 18, 25, count}) {
+  for (const int points : {11, 18, 25, point_count}) {
     for (const double length : {0.2, 0.4, 0.8}) {
       SCOPED_TRACE(testing::Message() << points << " points, " << length << " m");
       const fiber_proximity::ContactArray* answer =

@@ -12,7 +12,7 @@ namespace fiber::test {
 namespace {
 
 const std::string header = "distance,lower,upper,s,t\n";
-const std::string crossing = "-1,0,0,3,0,0,0,-1,2,0,1,2";
+const std::string crossing_pair = "-1,0,0,3,0,0,0,-1,2,0,1,2";
 
 class Segments : public ToolsTest {
  protected:
@@ -31,7 +31,7 @@ std::vector<double> numbers(const SegmentDistance& d) {
 }
 
 TEST_F(Segments, PrintsDistanceBoundsAndParameters) {
-  const std::string file = write("pairs.csv", crossing + "\n");
+  const std::string file = write("pairs.csv", crossing_pair + "\n");
   for (const std::string kernel : {"robust", "exact"}) {
     const ProcessResult result = query("segments " + file + " --kernel " + kernel);
     EXPECT_EQ(result.exit_code, 0);
@@ -82,17 +82,18 @@ TEST_F(Segments, PrintsTheLibrarysNumbersBitForBit) {
 }
 
 TEST_F(Segments, ReadsAllThatAFileMayBe) {
-  const std::string expected = answer(crossing);
+  const std::string expected = answer(crossing_pair);
   EXPECT_NE(expected, header);
   for (const std::string& content :
-       {crossing + ",,further,7\n", "," + crossing + "\n", std::string("-1 0 0 3 0 0 0 -1 2 0 1 2"),
-        std::string("-1 0 0\t3 0 0 0 -1 2 0 1 2 9\n"), std::string("-1;0;0;3;0;0;0;-1;2;0;1;2\n"),
+       {crossing_pair + ",,further,7\n", "," + crossing_pair + "\n",
+        std::string("-1 0 0 3 0 0 0 -1 2 0 1 2"), std::string("-1 0 0\t3 0 0 0 -1 2 0 1 2 9\n"),
+        std::string("-1;0;0;3;0;0;0;-1;2;0;1;2\n"),
         std::string("# a comment\n\"-1\",\"0\",0,3,0,0,0,-1,2,0,1,2\n#-1,0,0,3,0,0,0,-1,2,0,1,2\n"),
         std::string("-1 0 0, 3 0 0, 0 -1 2, 0 1 2\n"),
         std::string(" -1 , 0 ,0 ,3,0,0,0,-1,2,0,1,2 \r\n"),
         std::string("-0x1p+0,0x0p+0,0,0x1.8p1,0,0,0,-1,0X1P1,+0,1,2\n"),
-        "\n \nname,p0x,p0y,p0z,p1x,p1y,p1z,q0x,q0y,q0z,q1x,q1y,q1z\n\n" + crossing + "\n\n",
-        "\xEF\xBB\xBF" + crossing + "\n"}) {
+        "\n \nname,p0x,p0y,p0z,p1x,p1y,p1z,q0x,q0y,q0z,q1x,q1y,q1z\n\n" + crossing_pair + "\n\n",
+        "\xEF\xBB\xBF" + crossing_pair + "\n"}) {
     EXPECT_EQ(answer(content), expected) << content;
   }
   EXPECT_EQ(answer(""), header);
@@ -100,23 +101,23 @@ TEST_F(Segments, ReadsAllThatAFileMayBe) {
 }
 
 TEST_F(Segments, NamesOfPairsLeadTheirRows) {
-  const std::string row = answer(crossing).substr(header.size());
+  const std::string row = answer(crossing_pair).substr(header.size());
   ASSERT_GT(row.size(), 10U);
   for (const std::string separator : {",", ";", " "}) {
-    std::string numbers = crossing;
+    std::string numbers = crossing_pair;
     std::replace(numbers.begin(), numbers.end(), ',', separator[0]);
     EXPECT_EQ(answer("edge" + separator + numbers + "\n" + numbers + "\n\"my \"\"pair\"\", 2;\"" +
                      separator + numbers + "\n"),
               "name," + header + "edge," + row + "," + row + "\"my \"\"pair\"\", 2;\"," + row)
         << separator;
   }
-  EXPECT_EQ(answer("\"name\",\"p0.x\",a,b,c,d,e,f,g,h,i,j,k\n7," + crossing + "\n"),
+  EXPECT_EQ(answer("\"name\",\"p0.x\",a,b,c,d,e,f,g,h,i,j,k\n7," + crossing_pair + "\n"),
             "name," + header + "7," + row)
       << "the header says that numbers are names";
 }
 
 TEST_F(Segments, RefusesBadFilesNamingFileLineColumnAndReason) {
-  const std::string good = crossing + "\n\n";
+  const std::string good = crossing_pair + "\n\n";
   const std::string rule = ", coordinates must be finite and at most 1e150 m in magnitude";
   EXPECT_TRUE(
       refusal(good + "-1,0,0,3,0,0,0,x,2,0,1,2", ":3: column 8 (q0.y) is 'x', expected a number"));
@@ -130,17 +131,17 @@ TEST_F(Segments, RefusesBadFilesNamingFileLineColumnAndReason) {
   EXPECT_TRUE(refusal("1,2,3\n", ":1: has 3 values, expected the 12 coordinates"));
   EXPECT_TRUE(refusal("a,1,2,3,4,5,6,7,8,9,10,11\n", ":1: has 11 values after the name 'a'"));
   EXPECT_TRUE(refusal(good + "a,b,c,d,e,f,g,h,i,j,k,l,m\n", ":3: column 2 (p0.x) is 'b'"));
-  EXPECT_TRUE(refusal("#a," + crossing, ":1: is a comment, or a row of the name '#a'"));
-  EXPECT_TRUE(refusal("a," + crossing + "\n\"a," + crossing,
+  EXPECT_TRUE(refusal("#a," + crossing_pair, ":1: is a comment, or a row of the name '#a'"));
+  EXPECT_TRUE(refusal("a," + crossing_pair + "\n\"a," + crossing_pair,
                       ":2: value 1 has no closing quote on its line"));
-  EXPECT_TRUE(refusal("\"a\"b," + crossing, ":1: value 1 goes on after its closing quote"));
+  EXPECT_TRUE(refusal("\"a\"b," + crossing_pair, ":1: value 1 goes on after its closing quote"));
   EXPECT_TRUE(refused(query("segments " + path("none.csv")),
                       path("none.csv") + ": cannot be opened: No such file or directory"));
   EXPECT_TRUE(refused(query("segments /"), "/: cannot be read: Is a directory"));
 }
 
 TEST_F(Segments, RefusesBadCommandLines) {
-  const std::string file = write("pairs.csv", crossing);
+  const std::string file = write("pairs.csv", crossing_pair);
   EXPECT_TRUE(refused(query("segments"), "FILE"));
   EXPECT_TRUE(refused(query("segments " + file + " --kernel double"),
                       "unknown kernel 'double', known are: robust, exact"));

@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr const char* two_fibers =
+constexpr const char* joined_pair =
     "fibers:\n"
     "  - {name: stem, shape: {line: {from: [0, 0, 0], to: [1, 0, 0]}}, segments: 10,"
     " radius: 0.01, material: silicone_tube}\n"
@@ -19,7 +19,7 @@ constexpr const char* two_fibers =
     " radius: 0.01, material: silicone_tube}\n";
 
 std::string joined(const std::string& joints, const std::string& others = "stretch, bend") {
-  return two_fibers + ("effects: [" + others + ", {joint: [" + joints + "]}]\n");
+  return joined_pair + ("effects: [" + others + ", {joint: [" + joints + "]}]\n");
 }
 
 constexpr const char* branching = "{kind: weld, nodes: [{fiber: stem, node: 5}, {fiber: branch}]}";
@@ -159,7 +159,7 @@ TEST_F(SimSceneTest, WrongJointsAreErrors) {
               "{nodes: [{fiber: stem, at: 0.51}, {fiber: branch, node: last}]}"),
        "its 10 segment(s) are too few for a joint or the end of a section at 0.51 beside one at "
        "0.5 of its length"},
-      {two_fibers + std::string("effects: [stretch, joint]\n"), "a map of joint to a list"},
+      {joined_pair + std::string("effects: [stretch, joint]\n"), "a map of joint to a list"},
       {ring_of(square, "2", "stretch"), "segments is 2, it must be at least 3 of a closed fibre"},
       {ring_of("{line: {from: [0, 0, 0], to: [1, 0, 0]}}", "8", "stretch"),
        "closed is true, it must be absent or false where the shape is straight"},
