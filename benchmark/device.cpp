@@ -25,18 +25,20 @@ struct DeviceRequest {
 
 /// Times of frames [ms].
 struct DeviceTimes {
-  std::vector<double> over;    // points go to the GPU, and the tree is built there
-  std::vector<double> query;   // contacts are found
-  std::vector<double> back;    // contacts go back
-  std::vector<double> all;     // the three
-  std::vector<double> device;  // of all this what the GPU does
+  std::vector<double> over;     // points go to the GPU, and the tree is built there
+  std::vector<double> to_host;  // contacts are found, and go back
+  std::vector<double> all;      // both
+  std::vector<double> locked;   // both, from page-locked points
+  std::vector<double> copied;   // both, contacts into memory of the caller
+  std::vector<double> device;   // of all this what the GPU does
   std::vector<double> run_tree;
 };
 
 /// Whether contacts on the host are those of an engine, bit for bit.
-bool are_same(const DeviceProximity::HostContacts& found, const FiberAssembly& fibers,
+template <class Arrays>
+bool are_same(const Arrays& found, std::size_t count, const FiberAssembly& fibers,
               const std::vector<Contact>& contacts) {
-  if (found.a.size() != contacts.size()) {
+  if (count != contacts.size()) {
     return false;
   }
   for (std::size_t i = 0; i < contacts.size(); ++i) {
@@ -58,9 +60,10 @@ void print(const DeviceRequest& request, const FiberAssembly& fibers, std::size_
                       "contacts",
                       {"on GPU [ms]", "device_ms"},
                       {"points over, tree [ms]", "update_ms"},
-                      {"query [ms]", "query_ms"},
-                      {"contacts back [ms]", "back_ms"},
-                      {"all [ms]", "all_ms"},
+                      {"contacts to host [ms]", "to_host_ms"},
+                      {"both [ms]", "all_ms"},
+                      {"page-locked points [ms]", "locked_ms"},
+                      {"contacts copied [ms]", "copied_ms"},
                       "threads",
                       {"run_tree [ms]", "run_tree_ms"}},
                      request.json);
@@ -69,9 +72,10 @@ void print(const DeviceRequest& request, const FiberAssembly& fibers, std::size_
                  {"contacts", contacts},
                  {"device_ms", median(times.device)},
                  {"update_ms", median(times.over)},
-                 {"query_ms", median(times.query)},
-                 {"back_ms", median(times.back)},
+                 {"to_host_ms", median(times.to_host)},
                  {"all_ms", median(times.all)},
+                 {"locked_ms", median(times.locked)},
+                 {"copied_ms", median(times.copied)},
                  {"threads", request.threads},
                  {"run_tree_ms", median(times.run_tree)}});
 }
@@ -86,20 +90,35 @@ ExitCode run_device(const DeviceRequest& request) {
   QueryOptions options;
   options.neighbour_skip = 1;  // the rule of loops is the host's
   DeviceTimes times;
-  DeviceProximity::HostContacts contacts;
+  DeviceProximity::HostArrays arrays;
+  DeviceProximity::HostContacts copies;
   QueryResult result;
+  std::vector<Eigen::Vector3d> locked = fibers.points();
+  const std::shared_ptr<void> lock = device.lock_points(locked);
+  const auto is_same_as = [&](const auto& found, std::size_t count) {
+    return are_same(found, count, fibers, result.contacts);
+  };
   for (std::uint32_t frame = 0; frame <= request.repeats; ++frame) {
     progress.show("frame " + std::to_string(frame) + " of " + std::to_string(request.repeats));
     fibers.update_points(scene(frame).points());
-    DeviceProximity::Contacts found;
-    const double over = time_of([&] { device.update_from_host(fibers.points()); });
-    const double query = time_of([&] { found = device.query({}); });
-    const double back = time_of([&] { device.copy_to_host(found, contacts); });
     const double run_tree = time_of([&] {
       engine->update(fibers);
       engine->query(options, result);
     });
-    if (!are_same(contacts, fibers, result.contacts)) {
+    const double copied = time_of([&] {
+      device.update_from_host(fibers.points());
+      device.copy_to_host(device.query({}), copies);
+    });
+    bool are_all_same = is_same_as(copies, copies.a.size());
+    std::copy(fibers.points().begin(), fibers.points().end(), locked.begin());
+    const double from_locked = time_of([&] {
+      device.update_from_host(locked);
+      arrays = device.query_to_host({});
+    });
+    are_all_same = are_all_same && is_same_as(arrays, arrays.count);
+    const double over = time_of([&] { device.update_from_host(fibers.points()); });
+    const double to_host = time_of([&] { arrays = device.query_to_host({}); });
+    if (!are_all_same || !is_same_as(arrays, arrays.count)) {
       std::cerr << "fiber_bench: in frame " << frame << " run_tree has other contacts\n";
       return DISAGREED;
     }
@@ -108,13 +127,14 @@ ExitCode run_device(const DeviceRequest& request) {
     }
     constexpr double ms = 1e3;
     times.over.push_back(over);
-    times.query.push_back(query);
-    times.back.push_back(back);
-    times.all.push_back(over + query + back);
+    times.to_host.push_back(to_host);
+    times.all.push_back(over + to_host);
+    times.locked.push_back(from_locked);
+    times.copied.push_back(copied);
     times.device.push_back(ms * device.device_seconds());
     times.run_tree.push_back(run_tree);
   }
-  print(request, fibers, contacts.a.size(), times);
+  print(request, fibers, arrays.count, times);
   return SUCCEEDED;
 }
 
