@@ -1,3 +1,5 @@
+#include "src/cuda/device.hpp"
+
 #include <algorithm>
 #include <iostream>
 #include <memory>
@@ -18,6 +20,7 @@ namespace {
 struct DeviceRequest {
   std::string scene = "soup";
   SceneOptions scene_options;
+  std::string device = "gpu";
   std::uint32_t threads = 1;
   std::uint32_t repeats = 11;
   bool json = false;
@@ -84,7 +87,8 @@ ExitCode run_device(const DeviceRequest& request) {
   Progress progress;
   const Scene scene = make_scene(request.scene, request.scene_options);
   FiberAssembly fibers = scene(0);
-  DeviceProximity device(fibers.offsets(), fibers.radii());
+  DeviceProximity device(request.device == "host" ? make_host_device() : make_cuda_device(),
+                         fibers.offsets(), fibers.radii());
   const std::unique_ptr<ProximityEngine> engine = make_engine("run_tree", {request.threads, 0.0});
   engine->update(fibers);
   QueryOptions options;
@@ -147,6 +151,9 @@ void add_device_command(CLI::App& app, Command& command) {
       "contacts that stay on a GPU, or go back as arrays, beside run_tree for the same", request,
       run_device);
   add_scene_options(*subcommand, request->scene, request->scene_options);
+  add_value(*subcommand, "--device", request->device,
+            "the GPU, or its kernels as loops on the host, to try things",
+            CLI::IsMember({"gpu", "host"}));
   add_count(*subcommand, "--threads", request->threads, "of run_tree");
   add_count(*subcommand, "--repeats", request->repeats, "frames to measure");
   subcommand->add_flag("--json", request->json, "JSON Lines instead of a table");

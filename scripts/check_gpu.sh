@@ -5,7 +5,7 @@
 #     --pack FOLDER  build and pack only: the folder then runs on any 64-bit Linux with a GPU, with nothing installed
 #     --run FOLDER   run what lies packed there
 #     --only WHAT    of the two halves: tests, or times on the eight scenes of the paper
-#     --out DIR      where report.md and times.jsonl go (default: gpu/report in the build's folder)
+#     --out DIR      where report.md, times.jsonl and sizes.jsonl go (default: gpu/report in the build's folder)
 set -euo pipefail
 
 usage="usage: scripts/check_gpu.sh [--pack FOLDER | --run FOLDER] [--only tests|times] [--out DIR] [--verbose]"
@@ -36,8 +36,19 @@ esac
 programs=(cuda_tree_test query_test hard_scenes_test accuracy_test contact_limit_test concurrent_queries_test
   fiber_graph_test fiber_bench)
 
-# Scenes and their scales.
-SIZES_HERE
+# Cables beside each other, 330 segments a copy, and fibres anywhere, 1000000: from how many on a GPU pays.
+sizes="cables --copies 1
+cables --copies 3
+cables --copies 10
+cables --copies 30
+cables --copies 100
+cables --copies 300
+cables --copies 1000
+soup --scale 0.001
+soup --scale 0.01
+soup --scale 0.03
+soup --scale 0.1
+soup --scale 0.3"
 
 # pack_programs FOLDER: programs, the libraries they load and the loader, without symbols.
 pack_programs() {
@@ -104,13 +115,12 @@ measure_there() {
     step "device_$scene" here fiber_bench device --json --scene "$scene" --threads "$(nproc)" --repeats "$frames"
     cat "$out/cycle_$scene.log" "$out/device_$scene.log" >>"$out/times.jsonl"
   done
-  # From how many segments on it pays: cables beside each other, and fibres anywhere.
   : >"$out/sizes.jsonl"
-  local scale
-  while read -r scene scale; do
-    step "size_${scene}_$scale" here fiber_bench cycle --json --scene "$scene" --scale "$scale" \
-      --engines run_tree,cuda_tree --threads "$(nproc)" --repeats 31
-    cat "$out/size_${scene}_$scale.log" >>"$out/sizes.jsonl"
+  local size
+  while read -r -a size; do
+    step "size_${size[0]}_${size[2]}" here fiber_bench cycle --json --scene "${size[@]}" --engines run_tree,cuda_tree \
+      --threads "$(nproc)" --repeats 31 </dev/null
+    cat "$out/size_${size[0]}_${size[2]}.log" >>"$out/sizes.jsonl"
   done <<<"$sizes"
 }
 
