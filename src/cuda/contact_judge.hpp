@@ -50,9 +50,7 @@ class ContactJudge {
       host_.resize(found);
       sent = 0;
     }
-    if (sent < found) {
-      send(executor, sent, found);
-    }
+    send(executor, sent, found);
     return {found, host_.arrays()};
   }
   void wait(Executor& executor) { executor.wait_for_sent(); }
@@ -121,6 +119,9 @@ class ContactJudge {
 
   void send(Executor& executor, std::uint32_t begin, std::uint32_t end) {
     const std::size_t count = end - begin;
+    if (count == 0) {
+      return;
+    }
     executor.send(device_.a, begin, count, host_.a);
     executor.send(device_.b, begin, count, host_.b);
     executor.send(device_.s, begin, count, host_.s);
