@@ -1,3 +1,5 @@
+#include "src/cuda/device.hpp"
+
 #include <algorithm>
 #include <iostream>
 #include <memory>
@@ -19,6 +21,7 @@ namespace {
 struct DeviceRequest {
   std::string scene = "soup";
   SceneOptions scene_options;
+  std::string device = "gpu";
   std::uint32_t threads = 1;
   std::uint32_t repeats = 11;
   bool json = false;
@@ -26,18 +29,20 @@ struct DeviceRequest {
 
 /// Times of frames [ms].
 struct DeviceTimes {
-  std::vector<double> over;    // points go to the GPU, and the tree is built there
-  std::vector<double> query;   // contacts are found
-  std::vector<double> back;    // contacts go back
-  std::vector<double> all;     // the three
-  std::vector<double> device;  // of all this what the GPU does
+  std::vector<double> over;     // points go to the GPU, and the tree is built there
+  std::vector<double> to_host;  // contacts are found, and go back
+  std::vector<double> all;      // both
+  std::vector<double> locked;   // both, from page-locked points
+  std::vector<double> copied;   // both, contacts into memory of the caller
+  std::vector<double> device;   // of all this what the GPU does
   std::vector<double> run_tree;
 };
 
 /// Whether contacts on the host are those of an engine, bit for bit.
-bool are_same(const DeviceProximity::HostContacts& found, const FiberAssembly& fibers,
+template <class Arrays>
+bool are_same(const Arrays& found, std::size_t count, const FiberAssembly& fibers,
               const std::vector<Contact>& contacts) {
-  if (found.a.size() != contacts.size()) {
+  if (count != contacts.size()) {
     return false;
   }
   for (std::size_t i = 0; i < contacts.size(); ++i) {
@@ -59,9 +64,10 @@ void print(const DeviceRequest& request, const FiberAssembly& fibers, std::size_
                       "contacts",
                       {"on GPU [ms]", "device_ms"},
                       {"points over, tree [ms]", "update_ms"},
-                      {"query [ms]", "query_ms"},
-                      {"contacts back [ms]", "back_ms"},
-                      {"all [ms]", "all_ms"},
+                      {"contacts to host [ms]", "to_host_ms"},
+                      {"both [ms]", "all_ms"},
+                      {"page-locked points [ms]", "locked_ms"},
+                      {"contacts copied [ms]", "copied_ms"},
                       "threads",
                       {"run_tree [ms]", "run_tree_ms"}},
                      request.json);
@@ -70,9 +76,10 @@ void print(const DeviceRequest& request, const FiberAssembly& fibers, std::size_
                  {"contacts", contacts},
                  {"device_ms", median(times.device)},
                  {"update_ms", median(times.over)},
-                 {"query_ms", median(times.query)},
-                 {"back_ms", median(times.back)},
+                 {"to_host_ms", median(times.to_host)},
                  {"all_ms", median(times.all)},
+                 {"locked_ms", median(times.locked)},
+                 {"copied_ms", median(times.copied)},
                  {"threads", request.threads},
                  {"run_tree_ms", median(times.run_tree)}});
 }
@@ -81,26 +88,42 @@ ExitCode run_device(const DeviceRequest& request) {
   Progress progress;
   const Scene scene = measured_scene(request.scene, request.scene_options);
   FiberAssembly fibers = scene(0);
-  DeviceProximity device(fibers.offsets(), fibers.radii());
+  DeviceProximity device(request.device == "host" ? make_host_device() : make_cuda_device(),
+                         fibers.offsets(), fibers.radii());
   const std::unique_ptr<ProximityEngine> engine = make_engine("run_tree", {request.threads, 0.0});
   engine->update(fibers);
   QueryOptions options;
   options.neighbour_skip = 1;  // the rule of loops is the host's
   DeviceTimes times;
-  DeviceProximity::HostContacts contacts;
+  DeviceProximity::HostArrays arrays;
+  DeviceProximity::HostContacts copies;
   QueryResult result;
+  std::vector<Eigen::Vector3d> locked = fibers.points();
+  const std::shared_ptr<void> lock = device.lock_points(locked);
+  const auto is_same_as = [&](const auto& found, std::size_t count) {
+    return are_same(found, count, fibers, result.contacts);
+  };
   for (std::uint32_t frame = 0; frame <= request.repeats; ++frame) {
     progress.show("frame " + std::to_string(frame) + " of " + std::to_string(request.repeats));
     fibers.update_points(scene(frame).points());
-    DeviceProximity::Contacts found;
-    const double over = time_of([&] { device.update_from_host(fibers.points()); });
-    const double query = time_of([&] { found = device.query({}); });
-    const double back = time_of([&] { device.copy_to_host(found, contacts); });
     const double run_tree = time_of([&] {
       engine->update(fibers);
       engine->query(options, result);
     });
-    if (!are_same(contacts, fibers, result.contacts)) {
+    const double copied = time_of([&] {
+      device.update_from_host(fibers.points());
+      device.copy_to_host(device.query({}), copies);
+    });
+    bool are_all_same = is_same_as(copies, copies.a.size());
+    std::copy(fibers.points().begin(), fibers.points().end(), locked.begin());
+    const double from_locked = time_of([&] {
+      device.update_from_host(locked);
+      arrays = device.query_to_host({});
+    });
+    are_all_same = are_all_same && is_same_as(arrays, arrays.count);
+    const double over = time_of([&] { device.update_from_host(fibers.points()); });
+    const double to_host = time_of([&] { arrays = device.query_to_host({}); });
+    if (!are_all_same || !is_same_as(arrays, arrays.count)) {
       std::cerr << "fiber_bench: in frame " << frame << " run_tree has other contacts\n";
       return DISAGREED;
     }
@@ -109,13 +132,14 @@ ExitCode run_device(const DeviceRequest& request) {
     }
     constexpr double ms = 1e3;
     times.over.push_back(over);
-    times.query.push_back(query);
-    times.back.push_back(back);
-    times.all.push_back(over + query + back);
+    times.to_host.push_back(to_host);
+    times.all.push_back(over + to_host);
+    times.locked.push_back(from_locked);
+    times.copied.push_back(copied);
     times.device.push_back(ms * device.device_seconds());
     times.run_tree.push_back(run_tree);
   }
-  print(request, fibers, contacts.a.size(), times);
+  print(request, fibers, arrays.count, times);
   return SUCCEEDED;
 }
 
@@ -128,6 +152,9 @@ void add_device_command(CLI::App& app, Command& command) {
       "contacts that stay on a GPU, or go back as arrays, beside run_tree for the same", request,
       run_device);
   add_scene_options(*subcommand, request->scene, request->scene_options);
+  add_value(*subcommand, "--device", request->device,
+            "the GPU, or its kernels as loops on the host, to try things",
+            CLI::IsMember({"gpu", "host"}));
   add_count(*subcommand, "--threads", request->threads, "of run_tree");
   add_count(*subcommand, "--repeats", request->repeats, "frames to measure");
   subcommand->add_flag("--json", request->json, "JSON Lines instead of a table");

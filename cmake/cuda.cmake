@@ -45,7 +45,7 @@ else()
     CUDA_VISIBILITY_PRESET hidden POSITION_INDEPENDENT_CODE ON)
   target_compile_options(fiber_proximity_cuda_kernels PRIVATE --fmad=false --prec-div=false --expt-relaxed-constexpr --threads=0
     -Xcompiler=-Wall,-Wextra $<$<BOOL:${FIBER_PROXIMITY_WERROR}>:--Werror=all-warnings>)
-  target_sources(fiber_proximity_cuda PRIVATE src/cuda/pinned_copy.cpp)
+  target_sources(fiber_proximity_cuda PRIVATE src/cuda/on_threads.cpp)
   target_link_libraries(fiber_proximity_cuda PRIVATE fiber_proximity_cuda_kernels)
 endif()
 target_link_libraries(fiber_proximity_cuda PUBLIC fiber_proximity PRIVATE fiber_proximity_options)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cub/device/device_radix_sort.cuh>
 #include <cub/device/device_scan.cuh>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "src/cuda/cuda_memory.cuh"
 #include "src/cuda/device_of.hpp"
 #include "src/cuda/device_warp.cuh"
+#include "src/cuda/pinned_pieces.cuh"
 
 namespace fiber {
 namespace {
@@ -41,7 +43,11 @@ __global__ void __launch_bounds__(threads_per_block)
 class CudaExecutor {
  public:
   template <class T>
-  using Buffer = CudaBuffer<T>;
+  using Buffer = DeviceBuffer<T, CudaMemory>;
+  template <class T>
+  using HostBuffer = DeviceBuffer<T, PinnedMemory>;
+
+  static constexpr std::uint32_t least_judged_at_once = std::uint32_t{1} << 17U;
 
   /// Time of the GPU.
   class Clock {
@@ -78,8 +84,22 @@ class CudaExecutor {
     bool has_run_ = false;
   };
 
-  CudaExecutor() { check(cudaStreamCreateWithFlags(&stream_, cudaStreamNonBlocking)); }
-  ~CudaExecutor() { cudaStreamDestroy(stream_); }
+  /// What the GPU has been given.
+  class Mark {
+   public:
+    Mark() { check(cudaEventCreateWithFlags(&event_, cudaEventDisableTiming)); }
+    ~Mark() { cudaEventDestroy(event_); }
+    Mark(const Mark&) = delete;
+    Mark& operator=(const Mark&) = delete;
+
+    void set(CudaExecutor& executor) { check(cudaEventRecord(event_, executor.stream_)); }
+    void wait() const { check(cudaEventSynchronize(event_)); }
+
+   private:
+    cudaEvent_t event_ = nullptr;
+  };
+
+  CudaExecutor() = default;
   CudaExecutor(const CudaExecutor&) = delete;
   CudaExecutor& operator=(const CudaExecutor&) = delete;
 
@@ -87,6 +107,15 @@ class CudaExecutor {
   void upload(const T* from, std::size_t count, Buffer<T>& to) {
     to.resize(count);
     pinned_.upload(from, count * sizeof(T), to.data(), stream_);
+  }
+  template <class T>
+  void upload_in_place(const T* from, std::size_t count, Buffer<T>& to) {
+    if (!is_page_locked(from, count * sizeof(T))) {
+      upload(from, count, to);
+      return;
+    }
+    to.resize(count);
+    check(cudaMemcpyAsync(to.data(), from, count * sizeof(T), cudaMemcpyHostToDevice, stream_));
   }
 
   template <class T>
@@ -96,6 +125,17 @@ class CudaExecutor {
   template <class T>
   void download_from(const T* from, std::size_t count, T* to) {
     pinned_.download(from, count * sizeof(T), to, stream_);
+  }
+
+  template <class T>
+  void send(const Buffer<T>& from, std::size_t first, std::size_t count, HostBuffer<T>& to) {
+    check(cudaMemcpyAsync(to.data() + first, from.data() + first, count * sizeof(T),
+                          cudaMemcpyDeviceToHost, sending_));
+  }
+  void wait_for_sent() { check(cudaStreamSynchronize(sending_)); }
+
+  std::shared_ptr<void> lock_pages(const void* data, std::size_t bytes) {
+    return std::make_shared<PageLock>(data, bytes);
   }
 
   void require_own(const void* pointer) {
@@ -115,10 +155,10 @@ class CudaExecutor {
 
   void wait_for_others() { check(cudaDeviceSynchronize()); }
 
-  void add_up(Buffer<std::uint32_t>& values, std::size_t count) {
+  void add_up(Buffer<std::uint32_t>& values, std::size_t first, std::size_t count) {
+    std::uint32_t* const from = values.data() + first;
     with_memory([&](void* memory, std::size_t& bytes) {
-      return cub::DeviceScan::InclusiveSum(memory, bytes, values.data(), values.data(), count,
-                                           stream_);
+      return cub::DeviceScan::InclusiveSum(memory, bytes, from, from, count, stream_);
     });
   }
 
@@ -176,12 +216,26 @@ class CudaExecutor {
     check(call(memory_.data(), bytes));
   }
 
-  cudaStream_t stream_ = nullptr;
+  /// What is in it comes one after the other.
+  class Stream {
+   public:
+    Stream() { check(cudaStreamCreateWithFlags(&stream_, cudaStreamNonBlocking)); }
+    ~Stream() { cudaStreamDestroy(stream_); }
+    Stream(const Stream&) = delete;
+    Stream& operator=(const Stream&) = delete;
+    operator cudaStream_t() const { return stream_; }
+
+   private:
+    cudaStream_t stream_ = nullptr;
+  };
+
+  Stream stream_;
+  Stream sending_;
   PinnedPieces pinned_;
-  CudaBuffer<char> memory_;
-  CudaBuffer<std::uint32_t> other_keys_;
-  CudaBuffer<std::uint32_t> other_values_;
-  CudaBuffer<std::uint64_t> other_pairs_;
+  Buffer<char> memory_;
+  Buffer<std::uint32_t> other_keys_;
+  Buffer<std::uint32_t> other_values_;
+  Buffer<std::uint64_t> other_pairs_;
 };
 
 /// @throws std::runtime_error if there is no GPU that serves

@@ -98,6 +98,14 @@ struct CudaTreeEngine::Subject {
   }
 };
 
+/// One query at a time has the device. A thread that waits for others while it has it takes up
+/// nothing but what these do: another query would wait for itself.
+template <class Call>
+void CudaTreeEngine::with_device(const Call& call) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  tbb::this_task_arena::isolate(call);
+}
+
 CudaTreeEngine::CudaTreeEngine(std::unique_ptr<Device> device, const EngineOptions& options)
     : arena_(arena_concurrency(options.threads)),
       device_(std::move(device)),
@@ -128,12 +136,11 @@ void CudaTreeEngine::do_query(const FiberAssembly& fibers, const QueryOptions& o
 void CudaTreeEngine::do_query_shape(const FiberAssembly& shape, const FiberAssembly& fibers,
                                     const QueryOptions& options, QueryResult& result) const {
   std::unique_ptr<DeviceTree> tree;
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
+  with_device([&] {
     std::vector<double> radii;
     tree = device_->make_tree();
     fiber::update(*tree, shape, hierarchy_origin(fibers), false, radii);
-  }
+  });
   query({&shape, fibers, *tree, *tree_, nullptr}, options, result);
 }
 
@@ -241,8 +248,11 @@ std::uint64_t CudaTreeEngine::offer(const Subject& subject, const PairRule& rule
 std::uint64_t CudaTreeEngine::find(const Subject& subject, std::uint32_t first_leaf,
                                    std::uint32_t leaf_count, const PairRule& rule,
                                    std::uint64_t most, std::vector<std::uint64_t>& keys) const {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  return device_->find(subject.a, first_leaf, leaf_count, subject.b, rule, most, keys);
+  std::uint64_t count = 0;
+  with_device([&] {
+    count = device_->find(subject.a, first_leaf, leaf_count, subject.b, rule, most, keys);
+  });
+  return count;
 }
 
 }  // namespace fiber

@@ -48,6 +48,8 @@ class FIBER_PROXIMITY_EXPORT CudaTreeEngine final : public ProximityEngine {
   /// Whose pairs are asked about: those of the fibres, if no shape is given.
   struct Subject;
 
+  template <class Call>
+  void with_device(const Call& call) const;
   void query(const Subject& subject, const QueryOptions& options, QueryResult& result) const;
   bool find_all(const Subject& subject, const NarrowPhase& test, const QueryOptions& options,
                 const QueryLimits& limits, Memory& memory, QueryResult& result) const;

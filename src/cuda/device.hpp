@@ -21,13 +21,17 @@ struct HostFibers {
   double origin[3] = {};  ///< [m] that the tree is relative to
 };
 
+/// Throws what names the first point that fibres may not have.
+/// @throws std::invalid_argument
+[[noreturn]] FIBER_PROXIMITY_EXPORT void refuse_points(const HostFibers& fibers);
+
 /// Which points start segments, and of which fibre; changes with the topology only.
 struct HostTopology {
   std::vector<std::uint32_t> first_points;
   std::vector<std::uint32_t> fibers;  ///< by point
 };
 
-/// Contacts where the device has them.
+/// Contacts in memory of the device, or of the host.
 struct DeviceContacts {
   std::uint32_t count = 0;
   ContactArrays arrays = {};
@@ -43,15 +47,15 @@ class DeviceTree {
 
   virtual void set_topology(const HostTopology& topology) = 0;
 
-  /// Builds it anew for points of this topology.
+  /// Builds it anew for points of this topology, and needs them no longer. Page-locked ones the
+  /// device reads by itself.
+  /// @throws std::invalid_argument for coordinates that are not finite or too large
   virtual void update(const HostFibers& fibers) = 0;
 
   /// The same of points that are on the device already; waits until they are written.
   /// @param fibers all but its coordinates
   /// @param coordinates three per point [m]
-  /// @throws std::invalid_argument for a pointer that is not of this device, and for coordinates
-  /// that
-  ///         are not finite or too large
+  /// @throws std::invalid_argument for a pointer that is not of this device, too
   virtual void update(const HostFibers& fibers, const double* coordinates) = 0;
   virtual void update(const HostFibers& fibers, const float* coordinates) = 0;
 
@@ -90,6 +94,16 @@ class Device {
   /// @param margin [m] finite
   /// @throws std::runtime_error for more than 2³² candidates
   virtual DeviceContacts contacts(const DeviceTree& tree, const PairRule& rule, double margin) = 0;
+
+  /// The same in page-locked memory of the host, until it is called again.
+  virtual DeviceContacts contacts_to_host(const DeviceTree& tree, const PairRule& rule,
+                                          double margin) = 0;
+
+  /// Locks pages of the host for as long as the result is held, so that the device reads what is in
+  /// them by itself.
+  /// @throws std::invalid_argument if they are locked already, std::runtime_error where they cannot
+  ///         be
+  virtual std::shared_ptr<void> lock_pages(const void* data, std::size_t bytes) = 0;
 
   /// Memory of the device with these bytes in it, for as long as it is held.
   virtual std::shared_ptr<void> make_array(const void* from, std::size_t bytes) = 0;

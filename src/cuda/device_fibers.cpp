@@ -44,6 +44,14 @@ HostFibers host_fibers(const FiberAssembly& fibers, std::vector<double>& radii) 
   return host;
 }
 
+void refuse_points(const HostFibers& fibers) {
+  for (std::size_t point = 0; point < fibers.point_count; ++point) {
+    const double* const from = fibers.coordinates + 3 * point;
+    require_coordinates(("point " + std::to_string(point)).c_str(), {from[0], from[1], from[2]});
+  }
+  throw std::invalid_argument("points have changed while they were read");
+}
+
 PairRule pair_rule(double bound, std::uint32_t neighbour_skip, Pairing pairing) {
   PairRule rule;
   rule.bound = round_up(bound);

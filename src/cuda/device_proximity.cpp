@@ -1,12 +1,10 @@
 #include "fiber_proximity/cuda/device_proximity.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
 
 #include "src/cuda/device_fibers.hpp"
-#include "src/query/threads.hpp"
 
 namespace fiber {
 
@@ -50,18 +48,16 @@ void DeviceProximity::update_from_host(const std::vector<Eigen::Vector3d>& point
     throw std::invalid_argument("there are " + std::to_string(points.size()) +
                                 " points, the fibres have " + std::to_string(point_count()));
   }
-  constexpr std::size_t points_a_job = std::size_t{1} << 14U;
-  for_each_of((points.size() + points_a_job - 1) / points_a_job, [&](std::size_t job) {
-    const std::size_t end = std::min(points.size(), (job + 1) * points_a_job);
-    for (std::size_t point = job * points_a_job; point < end; ++point) {
-      require_coordinates("point", points[point]);
-    }
-  });
   tree_->has_points = false;
   HostFibers fibers = tree_->fibers;
   fibers.coordinates = points.empty() ? nullptr : points.front().data();
   tree_->tree->update(fibers);
   tree_->has_points = true;
+}
+
+std::shared_ptr<void> DeviceProximity::lock_points(
+    const std::vector<Eigen::Vector3d>& points) const {
+  return device_->lock_pages(points.data(), points.size() * sizeof(Eigen::Vector3d));
 }
 
 void DeviceProximity::copy_to_host(const Contacts& contacts, HostContacts& copy) const {
@@ -76,7 +72,8 @@ void DeviceProximity::copy_to_host(const Contacts& contacts, HostContacts& copy)
   read(contacts.distance, copy.distance);
 }
 
-DeviceProximity::Contacts DeviceProximity::query(const Options& options) const {
+/// @throws as query()
+PairRule DeviceProximity::rule_of(const Options& options) const {
   if (!(options.margin >= 0.0 && std::isfinite(options.margin))) {
     throw std::invalid_argument("margin is " + std::to_string(options.margin) +
                                 " m, it must be finite and not negative");
@@ -84,8 +81,18 @@ DeviceProximity::Contacts DeviceProximity::query(const Options& options) const {
   if (!tree_->has_points) {
     throw std::logic_error("there are no points yet: call update() first");
   }
-  const PairRule rule = pair_rule(options.margin, options.neighbour_skip, options.pairing);
-  const DeviceContacts found = device_->contacts(*tree_->tree, rule, options.margin);
+  return pair_rule(options.margin, options.neighbour_skip, options.pairing);
+}
+
+DeviceProximity::Contacts DeviceProximity::query(const Options& options) const {
+  const DeviceContacts found = device_->contacts(*tree_->tree, rule_of(options), options.margin);
+  const ContactArrays& arrays = found.arrays;
+  return {found.count, arrays.a, arrays.b, arrays.s, arrays.t, arrays.distance};
+}
+
+DeviceProximity::HostArrays DeviceProximity::query_to_host(const Options& options) const {
+  const DeviceContacts found =
+      device_->contacts_to_host(*tree_->tree, rule_of(options), options.margin);
   const ContactArrays& arrays = found.arrays;
   return {found.count, arrays.a, arrays.b, arrays.s, arrays.t, arrays.distance};
 }

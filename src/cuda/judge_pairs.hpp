@@ -64,8 +64,10 @@ struct JudgePairs {
   const std::uint64_t* pairs;
   JudgedPair* judged;
   std::uint32_t* are_contacts;  ///< 1 or 0
+  std::uint32_t first;          ///< which pair index 0 is
 
-  FIBER_ON_DEVICE void operator()(std::uint32_t index) const {
+  FIBER_ON_DEVICE void operator()(std::uint32_t number) const {
+    const std::uint32_t index = first + number;
     const auto a = static_cast<std::uint32_t>(pairs[index] >> 32U);
     const auto b = static_cast<std::uint32_t>(pairs[index]);
     const NearestPoints nearest(points.coordinates + 3 * std::size_t{a},
@@ -90,16 +92,25 @@ struct ContactArrays {
   double* distance;  ///< signed gap of the surfaces [m]
 };
 
-/// Brings the contacts together, in their order.
+/// Brings the contacts of some pairs together, in their order, as far as there is room.
 struct WriteContacts {
   const std::uint64_t* pairs;
   const JudgedPair* judged;
   const std::uint32_t* places;  ///< how many contacts come up to and with each pair
+  std::uint32_t first;          ///< of these pairs
+  std::uint32_t end;
   ContactArrays contacts;
+  std::uint64_t capacity;
+  std::uint32_t* total;  ///< how many contacts come up to and with the last of them
 
-  FIBER_ON_DEVICE void operator()(std::uint32_t index) const {
+  FIBER_ON_DEVICE void operator()(std::uint32_t number) const {
+    const std::uint32_t index = first + number;
     const std::uint32_t before = index == 0 ? 0U : places[index - 1];
-    if (places[index] == before) {
+    const std::uint32_t up_to_here = places[index];
+    if (index + 1 == end) {
+      *total = up_to_here;
+    }
+    if (up_to_here == before || before >= capacity) {
       return;
     }
     contacts.a[before] = static_cast<std::uint32_t>(pairs[index] >> 32U);
@@ -110,32 +121,14 @@ struct WriteContacts {
   }
 };
 
-/// Points of single precision as doubles, each counted that is not finite or beyond what fibres may
-/// have (FiberAssembly::max_coordinate).
+/// Points of either precision as doubles.
 template <class Number>
 struct TakePoints {
-  struct Scratch {};
-
   const Number* from;
-  std::uint32_t count;  ///< of coordinates
   double* to;
-  std::uint64_t* bad_count;
 
-  template <class Warp>
-  FIBER_ON_DEVICE void operator()(Warp warp, std::uint32_t index, Scratch& /*scratch*/) const {
-    const std::uint32_t bad = warp.ballot([&](int lane) {
-      const std::uint32_t at = index * warp_width + static_cast<std::uint32_t>(lane);
-      if (at >= count) {
-        return false;
-      }
-      constexpr double largest = 1e150;
-      const auto value = static_cast<double>(from[at]);
-      to[at] = value;
-      return !(value <= largest && value >= -largest);
-    });
-    if (bad != 0) {
-      warp.raise(bad_count, static_cast<std::uint64_t>(count_bits(bad)));
-    }
+  FIBER_ON_DEVICE void operator()(std::uint32_t index) const {
+    to[index] = static_cast<double>(from[index]);
   }
 };
 

@@ -107,7 +107,8 @@ FIBER_ON_DEVICE void write_joined(Warp warp, const typename Warp::template PerLa
   });
 }
 
-/// Bounds of 1024 points each.
+/// Bounds of 1024 points each. Coordinates that are not finite, or beyond what fibres may have
+/// (FiberAssembly::max_coordinate), are counted.
 struct BoundPoints {
   static constexpr std::uint32_t rounds = 32;
   static constexpr std::uint32_t points_each = rounds * warp_width;
@@ -115,11 +116,14 @@ struct BoundPoints {
 
   TreePoints points;
   PointBounds* bounds;
+  std::uint64_t* bad_count;
 
   template <class Warp>
   FIBER_ON_DEVICE void operator()(Warp warp, std::uint32_t index, Scratch& /*scratch*/) const {
     typename Warp::template PerLane<PointBounds> mine;
+    typename Warp::template PerLane<std::uint32_t> bad;
     warp.each([&](int lane) {
+      bad[lane] = 0;
       for (std::uint32_t round = 0; round < rounds; ++round) {
         const std::uint32_t point =
             index * points_each + round * warp_width + static_cast<std::uint32_t>(lane);
@@ -127,6 +131,7 @@ struct BoundPoints {
         const double* const from =
             points.coordinates + 3 * std::size_t{point < last ? point : last};
         const PointBounds here{{from[0], from[1], from[2]}, {from[0], from[1], from[2]}};
+        bad[lane] += point <= last ? bad_ones(from) : 0U;
         if (round == 0) {
           mine[lane] = here;
         } else {
@@ -135,6 +140,20 @@ struct BoundPoints {
       }
     });
     write_joined(warp, mine, bounds[index]);
+    const std::uint32_t all = warp.reduce(bad, [](std::uint32_t& a, std::uint32_t b) { a += b; });
+    if (all != 0) {
+      warp.raise(bad_count, std::uint64_t{all});
+    }
+  }
+
+ private:
+  FIBER_ON_DEVICE static std::uint32_t bad_ones(const double* point) {
+    constexpr double largest = 1e150;
+    std::uint32_t count = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      count += point[axis] <= largest && point[axis] >= -largest ? 0U : 1U;
+    }
+    return count;
   }
 };
 

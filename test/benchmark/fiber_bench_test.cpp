@@ -58,6 +58,21 @@ TEST_F(FiberBench, CopiesOfASceneAreAsDenseAsOne) {
   }
 }
 
+TEST_F(FiberBench, ADeviceHasTheContactsOfRunTree) {
+  const ProcessResult result =
+      bench("device --device host --scene tress_a --scale 0.04 --repeats 2 --json");
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.err, "");
+  const nlohmann::json row = json_lines(result.out).at(0);
+  EXPECT_EQ(row.at("segments"), 9800);
+  EXPECT_GT(row.at("contacts"), 100);
+  for (const char* const time :
+       {"update_ms", "to_host_ms", "all_ms", "locked_ms", "copied_ms", "run_tree_ms"}) {
+    EXPECT_GT(row.at(time), 0.0) << time;
+  }
+  EXPECT_EQ(bench("device --device tpu").exit_code, 2);
+}
+
 TEST_F(FiberBench, AsksForTheClosestPairWhereThereIsNoContact) {
   const std::string command = "cycle --scene soup --scale 0.0002 --repeats 1 --engines ";
   const ProcessResult result = bench(command + "run_tree,AL --closest --json");

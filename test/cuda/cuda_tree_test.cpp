@@ -133,11 +133,6 @@ TEST_F(CudaTreeTest, UsesMemoryThatItTellsOf) {
   EXPECT_GE(bytes, 60.0 * static_cast<double>(fibers.segment_count()));
 }
 
-std::unique_ptr<Device> make_test_device() {
-  return std::getenv("FIBER_PROXIMITY_TEST_GPU") != nullptr ? make_cuda_device()
-                                                            : make_host_device();
-}
-
 /// What is on the device, as vectors.
 class DeviceArrays {
  public:
@@ -252,6 +247,11 @@ TEST(DeviceProximity, RefusesWhatIsNotAllowed) {
               device.update_from_host({{0.0, 0.0, 0.0}});
             }),
             "there are 1 points, the fibres have 4");
+  EXPECT_EQ(error_of([&] {
+              device.update_from_host({{0, 0, 0}, {0, 0, 0}, {0, 1e151, 0}, {0, 0, 0}});
+            }),
+            "point 2: y is 1e+151, coordinates must be finite and at most 1e150 m in magnitude");
+  EXPECT_THROW(device.query_to_host({}), std::logic_error);
   device.update_from_host(std::vector<Eigen::Vector3d>(4, Eigen::Vector3d::Zero()));
   DeviceProximity::HostContacts contacts;
   device.copy_to_host(device.query({}), contacts);

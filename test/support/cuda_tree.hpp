@@ -12,8 +12,14 @@
 
 namespace fiber::test {
 
-/// Makes `cuda_tree` known: with its kernels as loops on this processor, or, where
-/// FIBER_PROXIMITY_TEST_GPU is set, on a GPU (scripts/check_gpu.sh).
+/// Kernels as loops on this processor, or, where FIBER_PROXIMITY_TEST_GPU is set, a GPU
+/// (scripts/check_gpu.sh).
+inline std::unique_ptr<Device> make_test_device() {
+  return std::getenv("FIBER_PROXIMITY_TEST_GPU") != nullptr ? make_cuda_device()
+                                                            : make_host_device();
+}
+
+/// Makes `cuda_tree` known, on that device.
 inline void register_cuda_tree() {
   EngineFamily family;
   family.names = {"cuda_tree"};
@@ -22,9 +28,7 @@ inline void register_cuda_tree() {
     if (name != "cuda_tree") {
       return nullptr;
     }
-    const bool is_on_gpu = std::getenv("FIBER_PROXIMITY_TEST_GPU") != nullptr;
-    return std::make_unique<CudaTreeEngine>(is_on_gpu ? make_cuda_device() : make_host_device(),
-                                            options);
+    return std::make_unique<CudaTreeEngine>(make_test_device(), options);
   };
   [[maybe_unused]] static const bool is_registered = register_engines(family);
 }

@@ -11,6 +11,7 @@
 namespace FIBER_PROXIMITY_EXPORT fiber {
 
 class Device;
+struct PairRule;
 
 /// Contacts of fibres whose points are on a GPU, left there: for simulations whose points never
 /// come to the host. Pairs, parameters and distances are those of every engine, bit for bit.
@@ -35,7 +36,18 @@ class DeviceProximity {
     const double* distance = nullptr;  ///< signed gap of the surfaces, negative in penetration [m]
   };
 
-  /// The same in the memory of the host: 32 bytes each.
+  /// The same arrays in memory of the host, of the object that has found them: to be read until its
+  /// next query_to_host(), or its end.
+  struct HostArrays {
+    std::uint32_t count = 0;
+    const std::uint32_t* a = nullptr;
+    const std::uint32_t* b = nullptr;
+    const double* s = nullptr;
+    const double* t = nullptr;
+    const double* distance = nullptr;
+  };
+
+  /// The same in memory of the caller: 32 bytes each.
   struct HostContacts {
     std::vector<std::uint32_t> a;
     std::vector<std::uint32_t> b;
@@ -66,9 +78,18 @@ class DeviceProximity {
   void update(const double* coordinates);
   void update(const float* coordinates);
 
-  /// The same of points on the host.
-  /// @throws std::invalid_argument for another number of points, too
+  /// The same of points on the host, looked at on the device. Those that are page-locked, by
+  /// lock_points() or by CUDA, it reads by itself; others are copied on all threads.
+  /// @throws std::invalid_argument for another number of points, and naming the first that cannot
+  /// be
   void update_from_host(const std::vector<Eigen::Vector3d>& points);
+
+  /// Page-locks the memory of points that stay where they are from frame to frame, for as long as
+  /// the result is held: they must be neither freed nor moved before it is let go. Takes as long as
+  /// many frames.
+  /// @throws std::invalid_argument if they are locked already, std::runtime_error where they cannot
+  ///         be
+  std::shared_ptr<void> lock_points(const std::vector<Eigen::Vector3d>& points) const;
 
   /// Finds the contacts, and waits until they are there.
   /// @throws std::invalid_argument for a margin that is not allowed, std::logic_error before the
@@ -76,6 +97,11 @@ class DeviceProximity {
   ///         update(), std::runtime_error where the device's memory does not suffice, saying how
   ///         much was needed
   Contacts query(const Options& options) const;
+
+  /// Finds the contacts for the host: each part goes there while the device decides about the next,
+  /// into page-locked memory of this object, without a further copy. Contacts of query() are gone.
+  /// @throws as query()
+  HostArrays query_to_host(const Options& options) const;
 
   /// Copies contacts of the last query() to the host, into the memory there is.
   void copy_to_host(const Contacts& contacts, HostContacts& copy) const;
@@ -88,6 +114,7 @@ class DeviceProximity {
 
   template <class Number>
   void take(const Number* coordinates);
+  PairRule rule_of(const Options& options) const;
 
   std::vector<std::uint32_t> offsets_;
   std::unique_ptr<Device> device_;
