@@ -46,7 +46,7 @@ class ProximityNodelet : public ServerNodelet<ProximityServer> {
 class CableSimNodelet : public ServerNodelet<SimServer> {
   std::unique_ptr<SimServer> make() override {
     return std::make_unique<SimServer>(getPrivateNodeHandle(),
-                                       read_sim_options(getPrivateNodeHandle()));
+                                       read_sim_options(getNodeHandle(), getPrivateNodeHandle()));
   }
 };
 

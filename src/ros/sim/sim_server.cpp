@@ -64,7 +64,7 @@ void log_scene(const SimOptions& options, const fiber::SimDescription& descripti
 
 }  // namespace
 
-SimOptions read_sim_options(const ros::NodeHandle& private_node) {
+SimOptions read_sim_options(const ros::NodeHandle& node, const ros::NodeHandle& private_node) {
   const Parameters parameters(private_node, interface_of("cable_sim"));
   SimOptions options;
   parameters.read("scene", options.scene);
@@ -78,11 +78,12 @@ SimOptions read_sim_options(const ros::NodeHandle& private_node) {
   parameters.read("frame_timeout", options.frame_timeout);
   parameters.read("frame_wait", options.frame_wait);
   options.meshes = read_mesh_folders(parameters);
+  options.links = robot_links(node, options.meshes);
   return options;
 }
 
 fiber::SimDescription read_scene(const SimOptions& options) {
-  return fiber::read_sim_scene(fiber::load_yaml(options.scene), options.meshes);
+  return fiber::read_sim_scene(fiber::load_yaml(options.scene), options.meshes, {}, options.links);
 }
 
 SimServer::SimServer(const ros::NodeHandle& private_node, const SimOptions& options)
@@ -101,7 +102,7 @@ SimServer::SimServer(const ros::NodeHandle& private_node, const SimOptions& opti
       is_paused_(options.paused),
       next_frame_(ros::SteadyTime::now()),
       forces_(private_node) {
-  frames_.wait_for(scene_, options.frame_wait);
+  frames_.wait_for(description, scene_, options.frame_wait);
   log_scene(options_, description, scene_);
   fibers_ = node_.advertise<fiber_proximity::FiberArray>("fibers", 1, true);
   if (options_.clock) {

@@ -38,10 +38,12 @@ struct SimOptions {
   double frame_timeout{};   ///< [s] of wall time without news of a frame that holds something
   double frame_wait{};      ///< [s] of wall time for such frames to come when the scene is loaded
   MeshLoader meshes;        ///< of the environment, from the folders of ~mesh_folders
+  fiber::LinkSource links;  ///< of robots, from the parameters that scenes name
 };
 
+/// @param node in whose namespace parameters with robots' URDF are
 /// @throws std::invalid_argument naming the parameter, its value and what is allowed
-SimOptions read_sim_options(const ros::NodeHandle& private_node);
+SimOptions read_sim_options(const ros::NodeHandle& node, const ros::NodeHandle& private_node);
 
 /// Reads the file of the scene.
 /// @throws std::invalid_argument as fiber::load_yaml and fiber::read_sim_scene

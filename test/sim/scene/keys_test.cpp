@@ -142,6 +142,8 @@ std::string scene_with(const SceneMap& map, const std::string& key, const std::s
     const std::string table = "table: [" + with(others({{"time", "0"}})) + "]";
     effects = key == "acceleration" ? "{gravity: {" + table + "}}"
                                     : "twist, {load: [{fiber: a, node: last, " + table + "}]}";
+  } else if (map.name == "obstacle link") {
+    environment = ", environment: {obstacles: [" + with(others({{"link", "hand"}})) + "]}";
   } else if (map.name.rfind("obstacle", 0) == 0) {
     const std::string waypoint =
         map.name == "obstacle waypoint" ? with(others({{"time", "0"}})) : "{time: 0}";

@@ -164,10 +164,11 @@ using FrameTimer = std::function<std::vector<double>(const SimDescription& scene
 /// docs/scene_keys.md says what they mean.
 /// @param timer for scenes with `real_time`, whose segments and substeps are chosen by it; without
 ///              one, the processor time of this thread is measured, for about two seconds
+/// @param links of robots, for obstacles that are some
 /// @throws std::invalid_argument naming file, line, field and value, and what is allowed; and the
 ///         fibre where it is about one
 SimDescription read_sim_scene(const YamlField& document, const MeshSource& meshes,
-                              const FrameTimer& timer = {});
+                              const FrameTimer& timer = {}, const LinkSource& links = no_links);
 
 /// Holds nodes as told, in place of the holds that the scene has there.
 /// @param list as that of the effect attachment, which the scene must name
