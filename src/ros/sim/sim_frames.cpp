@@ -13,8 +13,6 @@
 namespace fiber_proximity_ros {
 namespace {
 
-constexpr double fastest_frame = 5.0;  // [m/s]
-
 /// Tells when something has stopped to follow its frame, and when it follows again.
 /// @param how it stopped, and why
 template <class Followed>

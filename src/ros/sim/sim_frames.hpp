@@ -11,6 +11,8 @@
 
 namespace fiber_proximity_ros {
 
+constexpr double fastest_frame = 5.0;  ///< [m/s] as after a gap they may be far away
+
 /// Moves holds that follow frames of tf. A hold stays where it is while tf does not know its frame,
 /// or nothing new of it has come for some time, and goes no further than its fibre reaches
 /// (lead()). It warns of both, and logs when the hold follows again.

@@ -88,8 +88,9 @@ bool SimServer::reset(std_srvs::Trigger::Request& /*request*/,
     forces_.begin();
     failure_.clear();
     interruption_ = "~reset began the scene again";
+    added_.begin(*description_, scene_);
     publish();
-    publish_obstacles(scene.objects());
+    publish_obstacles();
     make_markers();
   });
 }

@@ -1,5 +1,7 @@
 #include "src/sim/scene/obstacles.hpp"
 
+#include <algorithm>
+#include <cassert>
 #include <stdexcept>
 #include <utility>
 
@@ -9,6 +11,8 @@
 #include "src/text/quote.hpp"
 
 namespace fiber {
+
+using Eigen::Isometry3d;
 
 EnvironmentScene read_environment(const std::optional<YamlField>& field, const MeshSource& meshes,
                                   const LinkSource& links, SimDescription& scene) {
@@ -82,6 +86,68 @@ void require_room(const SimDescription& description, const SimScene& scene,
                                      quote(scene.fiber_names[contact.fiber_a]), " is ",
                                      1e3 * overlaps.front().depth(), " mm deep inside of it, ",
                                      1e3 * most, " mm is the most"));
+}
+
+namespace {
+
+std::uint32_t index_of(const SimScene& scene, const AddedObstacle& obstacle) {
+  assert(&obstacle >= scene.added_obstacles.data());
+  return static_cast<std::uint32_t>(scene.moving_count +
+                                    (&obstacle - scene.added_obstacles.data()));
+}
+
+void add_on_path(SimScene& scene, const EnvironmentObject& object, const ObstaclePath& begin) {
+  const auto path = std::make_shared<ObstaclePath>(begin);
+  scene.stepper->add_obstacle({object, [path](double time) { return pose_at(*path, time); }});
+  scene.added_obstacles.push_back({object.name, path});
+}
+
+}  // namespace
+
+void add_obstacle(SimScene& scene, const EnvironmentObject& object) {
+  add_on_path(scene, object, {{scene.stepper->time(), object.pose}});
+}
+
+const AddedObstacle* find_added(const SimScene& scene, const std::string& name) {
+  const auto found = std::find_if(scene.added_obstacles.begin(), scene.added_obstacles.end(),
+                                  [&name](const AddedObstacle& each) { return each.name == name; });
+  return found == scene.added_obstacles.end() ? nullptr : &*found;
+}
+
+EnvironmentObject placed(const SimScene& scene, const AddedObstacle& obstacle) {
+  const std::uint32_t index = index_of(scene, obstacle);
+  EnvironmentObject object = scene.motions()->obstacles()[index].object;
+  object.pose = scene.motions()->poses()[index];
+  return object;
+}
+
+void move_obstacle(const SimScene& scene, const AddedObstacle& obstacle, const Isometry3d& pose,
+                   double duration) {
+  const double now = scene.stepper->time();
+  *obstacle.path = {{now, scene.motions()->poses()[index_of(scene, obstacle)]},
+                    {now + duration, pose}};
+}
+
+void remove_obstacle(SimScene& scene, const AddedObstacle& obstacle) {
+  const std::uint32_t index = index_of(scene, obstacle);
+  scene.stepper->remove_obstacle(index);
+  scene.added_obstacles.erase(scene.added_obstacles.begin() +
+                              static_cast<std::ptrdiff_t>(index - scene.moving_count));
+}
+
+void replace_shapes(SimScene& scene, const AddedObstacle& obstacle,
+                    const std::vector<PlacedShape>& shapes) {
+  EnvironmentObject object = placed(scene, obstacle);
+  object.shapes = shapes;
+  const ObstaclePath path = *obstacle.path;
+  remove_obstacle(scene, obstacle);
+  add_on_path(scene, object, path);
+}
+
+void copy_added_obstacles(const SimScene& scene, SimScene& copy) {
+  for (const AddedObstacle& added : scene.added_obstacles) {
+    add_on_path(copy, placed(scene, added), *added.path);
+  }
 }
 
 }  // namespace fiber

@@ -307,6 +307,7 @@ SimScene copy_sim_scene(const SimDescription& description, const SimScene& scene
   SimScene copy = make_scene(description, threads, [](SimScene& /*scene*/, Rods& /*rods*/) {});
   copy.overlap_note = scene.overlap_note;
   copy.parameters.set(scene.parameters.all());
+  copy_added_obstacles(scene, copy);
   copy.stepper->take_state(*scene.stepper);
   copy.paths.clear();
   for (const auto& [hold, path] : scene.paths) {

@@ -240,6 +240,12 @@ struct FollowedObstacle {
   std::shared_ptr<ObstaclePath> path;  ///< in the world, never empty
 };
 
+/// An obstacle that came while a scene runs.
+struct AddedObstacle {
+  std::string name;
+  std::shared_ptr<ObstaclePath> path;  ///< in the world, never empty
+};
+
 /// A scene of the simulation, ready to move.
 struct SimScene : SimSettings {
   explicit SimScene(const SimSettings& settings) : SimSettings(settings) {}
@@ -249,6 +255,9 @@ struct SimScene : SimSettings {
   std::vector<FollowedFrame> frames;       ///< whose placements are to be kept up to date
 
   std::vector<FollowedObstacle> obstacle_frames;  ///< alike
+
+  /// Those among the obstacles that move that came later, behind the scene's own.
+  std::vector<AddedObstacle> added_obstacles;
 
   /// By hold, as Attachment::add() calls it: of holds whose paths may change.
   std::map<std::uint32_t, std::shared_ptr<const PlacementPath>> paths;
