@@ -71,6 +71,7 @@ add_library(fiber_proximity_ros SHARED
   src/ros/sim/sim_frames.cpp
   src/ros/sim/predict_service.cpp
   src/ros/sim/sim_markers.cpp
+  src/ros/sim/sim_obstacles.cpp
   src/ros/sim/sim_server.cpp
   src/ros/sim/sim_services.cpp
   src/ros/support/conversions.cpp

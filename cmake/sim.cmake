@@ -69,6 +69,7 @@ add_library(sim_scene OBJECT
   src/sim/scene/named_nodes.cpp
   src/sim/scene/natural_curvature.cpp
   src/sim/scene/obstacle_motion.cpp
+  src/sim/scene/obstacles.cpp
   src/sim/scene/prediction.cpp
   src/sim/scene/reach.cpp
   src/sim/scene/real_time.cpp

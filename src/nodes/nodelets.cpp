@@ -45,8 +45,8 @@ class ProximityNodelet : public ServerNodelet<ProximityServer> {
 
 class CableSimNodelet : public ServerNodelet<SimServer> {
   std::unique_ptr<SimServer> make() override {
-    return std::make_unique<SimServer>(getPrivateNodeHandle(),
-                                       read_sim_options(getPrivateNodeHandle()));
+    return std::make_unique<SimServer>(getNodeHandle(), getPrivateNodeHandle(),
+                                       read_sim_options(getNodeHandle(), getPrivateNodeHandle()));
   }
 };
 

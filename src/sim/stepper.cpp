@@ -224,6 +224,28 @@ ObstacleMotions* Stepper::moving_obstacles() const {
   return contacts_ != nullptr ? contacts_->motions() : nullptr;
 }
 
+bool Stepper::takes_moving_obstacles() const {
+  return contacts_ != nullptr && contacts_->possible_motions() != nullptr;
+}
+
+void Stepper::add_obstacle(MovingObstacle obstacle) {
+  if (!takes_moving_obstacles()) {
+    throw std::invalid_argument("nothing would touch an obstacle: there are no contacts with any");
+  }
+  contacts_->possible_motions()->add(std::move(obstacle), time_);
+  has_step_ = false;
+}
+
+void Stepper::remove_obstacle(std::uint32_t obstacle) {
+  if (moving_obstacles() == nullptr) {
+    throw std::invalid_argument("there are no obstacles that move");
+  }
+  ObstacleMotions& obstacles = *moving_obstacles();
+  obstacles.remove(obstacle);
+  solver_->remove_object(obstacles.first_index() + obstacle);
+  has_step_ = false;
+}
+
 RodForces Stepper::forces() const {
   RodForces forces;
   forces.tensions.assign(rods_.positions.size(), 0.0);

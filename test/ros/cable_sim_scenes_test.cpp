@@ -10,11 +10,8 @@
 #include "fiber_proximity/ObstacleArray.h"
 #include "fiber_proximity/SetSimulationParameters.h"
 #include "fiber_proximity/StepSimulation.h"
-#include "test/ros/mesh_files.hpp"
-#include "test/ros/node_test.hpp"
-#include "test/ros/running_node.hpp"
+#include "test/ros/own_scene_fixture.hpp"
 #include "test/support/answers.hpp"
-#include "test/support/process.hpp"
 
 namespace {
 
@@ -23,53 +20,6 @@ using fiber_proximity::AttachFiber;
 using fiber_proximity::DetachFiber;
 using fiber_proximity::SetSimulationParameters;
 using fiber_proximity::StepSimulation;
-
-/// A node of its own, with a scene of its own.
-class OwnSceneTest : public ::testing::Test {
- protected:
-  static std::string scene(const std::string& fibers, const std::string& rest) {
-    return "fibers:\n" + fibers + "effects:\n" + rest;
-  }
-  static std::string fiber(const std::string& name, const std::string& from,
-                           const std::string& to) {
-    return "  - name: " + name + "\n    shape: {line: {from: " + from + ", to: " + to +
-           "}}\n    segments: 20\n    radius: 0.005\n    material: silicone_tube\n";
-  }
-  void write(const std::string& text) const { test_meshes::write(file_, text); }
-
-  std::vector<std::string> command() const {
-    return {CABLE_SIM, "__name:=own_sim", "_scene:=" + file_, "_paused:=true"};
-  }
-
-  /// Of a node that does not start; one that does, or takes for ever, is ended.
-  ProcessResult run() const {
-    std::string text = "timeout " + std::to_string(node_test::patience) + " ";
-    for (const std::string& part : command()) {
-      text += part + " ";
-    }
-    return fiber::test::run_process(text);
-  }
-
-  template <class Service>
-  static typename Service::Response call(const std::string& name,
-                                         const typename Service::Request& request = {}) {
-    Service service;
-    service.request = request;
-    EXPECT_TRUE(
-        ros::service::waitForService("/own_sim/" + name, ros::Duration(node_test::patience)));
-    EXPECT_TRUE(node_test::call_service_alone("/own_sim/" + name, service)) << name;
-    return service.response;
-  }
-  static StepSimulation::Response step(std::uint32_t frames) {
-    StepSimulation::Request request;
-    request.frames = frames;
-    return call<StepSimulation>("step", request);
-  }
-
-  fiber::test::TemporaryDirectory folder_;
-  std::string file_ = folder_.path("scene.yaml");
-  ros::NodeHandle node;
-};
 
 TEST_F(OwnSceneTest, SigintEndsALongStep) {
   write(scene(fiber("cable", "[0, 0, 0]", "[1, 0, 0]"), "  - stretch\n"));

@@ -270,7 +270,7 @@ TEST_F(SimFramesTest, AFrameThatDoesNotComeIsAnErrorWhenTheSceneIsLoaded) {
   second.setParam("scene", node.param<std::string>("/cable_sim/scene", ""));
   second.setParam("frame_wait", 0.2);
   try {
-    const SimServer server(second, read_sim_options(second));
+    const SimServer server(node, second, read_sim_options(node, second));
     ADD_FAILURE() << "it does not wait";
   } catch (const std::invalid_argument& error) {
     const std::string message = error.what();

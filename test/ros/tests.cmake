@@ -168,6 +168,8 @@ add_executable(cable_sim_test EXCLUDE_FROM_ALL
   ros/cable_sim_test.cpp
   ros/main.cpp
   ros/sim_forces_test.cpp
+  ros/sim_obstacle_topic_test.cpp
+  ros/sim_obstacles_test.cpp
   ros/sim_predict_test.cpp
 )
 target_compile_definitions(cable_sim_test PRIVATE CABLE_SIM="$<TARGET_FILE:cable_sim>")
@@ -179,6 +181,8 @@ add_rostest(ros/demo.test DEPENDENCIES node_test proximity_node cable_sim)
 add_rostest(ros/sim_forces.test DEPENDENCIES cable_sim_test cable_sim)
 add_rostest(ros/sim_predict.test DEPENDENCIES cable_sim_test cable_sim)
 add_rostest(ros/sim_frames.test DEPENDENCIES cable_sim_test cable_sim)
+add_rostest(ros/sim_obstacle_nodes.test DEPENDENCIES cable_sim_test cable_sim)
+add_rostest(ros/sim_obstacles.test DEPENDENCIES cable_sim_test cable_sim)
 add_rostest(ros/cable_sim.test
   ARGS nodelet:=true DEPENDENCIES cable_sim_test cable_sim fiber_proximity_nodelets)
 

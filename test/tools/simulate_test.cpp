@@ -240,6 +240,11 @@ TEST_F(Simulate, RefusesBadScenesWithFileAndLine) {
                       ":12: obstacle 'table'.meshes[0].resource: mesh 'a.stl': there is no "
                       "file '" +
                           path("a.stl")));
+  text = ropes;
+  text.replace(text.find("obstacles: ["), 12, "obstacles: [{link: hand}, ");
+  EXPECT_TRUE(refusal(text,
+                      ":12: environment.obstacles[0].link is hand: links of robots are for "
+                      "cable_sim"));
   EXPECT_FALSE(std::filesystem::exists(path("out.csv")));
 }
 

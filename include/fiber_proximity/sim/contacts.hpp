@@ -69,7 +69,7 @@ class ObstacleMotions;
 class Contacts {
  public:
   /// @param friction null for none
-  /// @param motions  of the obstacles that move; null for none
+  /// @param motions  of the obstacles that move; null where none may come
   Contacts(std::vector<std::unique_ptr<ContactSource>> sources, std::shared_ptr<Friction> friction,
            std::shared_ptr<ObstacleMotions> motions = nullptr)
       : sources_(std::move(sources)),
@@ -78,7 +78,12 @@ class Contacts {
 
   const std::vector<std::unique_ptr<ContactSource>>& sources() const { return sources_; }
   const Friction* friction() const { return friction_.get(); }
-  ObstacleMotions* motions() const { return motions_.get(); }
+
+  /// Null while there are no obstacles that move.
+  ObstacleMotions* motions() const;
+
+  /// Null where none may come.
+  ObstacleMotions* possible_motions() const { return motions_.get(); }
 
  private:
   std::vector<std::unique_ptr<ContactSource>> sources_;

@@ -64,6 +64,17 @@ class ObstacleMotions {
   /// @throws std::invalid_argument if there is no such one
   void place(std::uint32_t obstacle, const Eigen::Isometry3d& pose);
 
+  /// Adds one behind the others, whatever is where its placement has it at a time [s].
+  /// @throws std::invalid_argument as the constructor
+  void add(MovingObstacle obstacle, double time);
+
+  /// Removes one; those behind it are counted from one less then.
+  /// @throws std::invalid_argument if there is no such one
+  void remove(std::uint32_t obstacle);
+
+  /// Another one whenever obstacles have come or gone.
+  std::uint32_t revision() const { return revision_; }
+
   /// Takes where the objects of another simulation are, which are the same.
   void take_state(const ObstacleMotions& other) { poses_ = other.poses_; }
 
@@ -93,6 +104,7 @@ class ObstacleMotions {
 
   std::vector<MovingObstacle> obstacles_;
   std::uint32_t first_index_;
+  std::uint32_t revision_ = 0;
   double begin_time_ = 0.0;
   std::vector<Eigen::Isometry3d> begin_;
   std::vector<Eigen::Isometry3d> poses_;
@@ -117,7 +129,10 @@ class MovingObstacleContact : public ContactSource {
  private:
   class Finder;
 
+  void take_shapes();
+
   std::shared_ptr<const ObstacleMotions> motions_;
+  std::uint32_t revision_ = 0;  // of these, when shapes were taken
   EnvironmentContact::Options options_;
   std::unique_ptr<const AllowedParts> allowed_;  // null if no pairs are
   std::vector<MovingShape> moving_;              // all shapes of all objects

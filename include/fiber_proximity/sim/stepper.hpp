@@ -72,6 +72,8 @@ struct StepReport {
   double energy_gain = 0.0;
 };
 
+struct MovingObstacle;
+
 /// Moves rods by the effects a scene calls for: discrete elastic rods in implicit time steps
 /// (Bergou et al. 2008, 2010), each a minimum of the incremental potential near where the rods were
 /// (Martin et al. 2011, Eq. 4): of kinetic, potential and contact energy. Newton's method finds it
@@ -110,11 +112,23 @@ class Stepper {
   /// Of the obstacles that move; null for none. They may be redirected between two steps.
   ObstacleMotions* moving_obstacles() const;
 
+  /// Whether there may be some: whether its contacts have motions.
+  bool takes_moving_obstacles() const;
+
+  /// Adds one behind the others, whatever is there now. As after take_state(), forces are those of
+  /// the next step.
+  /// @throws std::invalid_argument as ObstacleMotions::add(), or if it takes none
+  void add_obstacle(MovingObstacle obstacle);
+
+  /// Removes one of those that move; those behind it are counted from one less then.
+  /// @throws std::invalid_argument if there is no such one
+  void remove_obstacle(std::uint32_t obstacle);
+
   /// The result of the last step.
   const StepReport& report() const { return report_; }
 
   /// The forces in and on the rods at the end of the last step; before the first one, and the first
-  /// one after take_state(), none.
+  /// one after take_state() and after obstacles have come or gone, none.
   RodForces forces() const;
 
   /// Kinetic and stored energy [J], also of contacts, where the rods are; before the first step

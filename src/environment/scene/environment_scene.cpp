@@ -145,7 +145,36 @@ EnvironmentObject read_object(const YamlField& entry, const std::string& name,
   });
 }
 
-SceneObstacle read_obstacle(const YamlField& entry, const MeshSource& meshes, bool may_move) {
+/// @param links where there may be some
+SceneObstacle read_link(const YamlField& entry, const LinkSource& links) {
+  entry.require_map({"link", "id", "robot_description"});
+  const YamlField field = entry.get("link");
+  const auto id = entry.find("id");
+  const auto description = entry.find("robot_description");
+  if (description && description->text().empty()) {
+    description->refuse("the name of a parameter");
+  }
+  SceneObstacle obstacle;
+  obstacle.link = field.text();
+  obstacle.object.name = id ? id->text() : *obstacle.link;
+  obstacle.object.shapes = with_context(field.statement(), [&] {
+    return links(*obstacle.link, description ? description->text() : "");
+  });
+  obstacle.place = entry.named("obstacle " + quote(obstacle.object.name)).place();
+  with_context(entry.place(), [&] {
+    with_context("obstacle " + quote(obstacle.object.name),
+                 [&] { validate_obstacle_name(obstacle.object.name); });
+    validate(ObjectChange{ObjectChange::Operation::ADD, obstacle.object});
+  });
+  return obstacle;
+}
+
+/// @param links null where none moves
+SceneObstacle read_obstacle(const YamlField& entry, const MeshSource& meshes,
+                            const LinkSource* links) {
+  if (links != nullptr && entry.is_map() && entry.find("link")) {
+    return read_link(entry, *links);
+  }
   std::vector<std::string> keys{"id",
                                 "frame_id",
                                 "pose",
@@ -159,8 +188,8 @@ SceneObstacle read_obstacle(const YamlField& entry, const MeshSource& meshes, bo
                                 "plane_poses",
                                 "half_spaces",
                                 "half_space_poses"};
-  if (may_move) {
-    keys.emplace_back("motion");
+  if (links != nullptr) {
+    keys.insert(keys.end(), {"motion", "link"});
   }
   entry.require_map(keys);
   SceneObstacle obstacle;
@@ -192,15 +221,13 @@ NamedPair read_pair(const YamlField& entry) {
   return pair;
 }
 
-}  // namespace
-
-EnvironmentScene read_environment_scene(const YamlField& document, const MeshSource& meshes,
-                                        bool may_move) {
+EnvironmentScene read_scene(const YamlField& document, const MeshSource& meshes,
+                            const LinkSource* links) {
   document.require_map({"obstacles", "allowed"});
   EnvironmentScene scene;
   std::set<std::string> names;
   scene.obstacles = read_list(document, "obstacles", [&](const YamlField& entry) {
-    SceneObstacle obstacle = read_obstacle(entry, meshes, may_move);
+    SceneObstacle obstacle = read_obstacle(entry, meshes, links);
     if (!names.insert(obstacle.object.name).second) {
       throw std::invalid_argument(entry.place() + " has the id " + quote(obstacle.object.name) +
                                   " of another obstacle of the scene");
@@ -209,6 +236,23 @@ EnvironmentScene read_environment_scene(const YamlField& document, const MeshSou
   });
   scene.allowed = read_list(document, "allowed", read_pair);
   return scene;
+}
+
+}  // namespace
+
+EnvironmentScene read_environment_scene(const YamlField& document, const MeshSource& meshes) {
+  return read_scene(document, meshes, nullptr);
+}
+
+EnvironmentScene read_moving_environment_scene(const YamlField& document, const MeshSource& meshes,
+                                               const LinkSource& links) {
+  return read_scene(document, meshes, &links);
+}
+
+std::vector<PlacedShape> no_links(const std::string& /*link*/, const std::string& /*description*/) {
+  throw std::invalid_argument(
+      "links of robots are for cable_sim, which knows their URDF; here it must have shapes of its "
+      "own");
 }
 
 }  // namespace fiber

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "src/ros/inputs/input_source.hpp"
+#include "src/ros/support/part_of.hpp"
 #include "src/ros/support/stamps.hpp"
 #include "src/text/with_context.hpp"
 
@@ -30,13 +31,6 @@ void check_stamps(Change& change, double max_ahead) {
       return;
     }
   }
-}
-
-/// Points to a part of a message, and keeps the message alive.
-template <class Message, class Part>
-std::shared_ptr<const Part> part_of(const boost::shared_ptr<const Message>& message,
-                                    const Part& part) {
-  return std::shared_ptr<const Part>(&part, [message](const Part* /*part*/) {});
 }
 
 }  // namespace

@@ -98,12 +98,9 @@ std::vector<RobotLink> read_robot(const ros::NodeHandle& node, const Parameters&
   if (!is_wanted) {
     return {};
   }
-  std::string description;
-  if (!node.getParam(name, description)) {
-    throw std::invalid_argument("parameter " + parameters.node().resolveName("robot") +
-                                " is true, but parameter " + node.resolveName(name) +
-                                " is not set, it must be the URDF of the robot");
-  }
+  const std::string description =
+      fiber::with_context("parameter " + parameters.node().resolveName("robot") + " is true",
+                          [&] { return robot_description(node, name); });
   return fiber::with_context("parameter " + node.resolveName(name),
                              [&] { return read_robot(description, meshes); });
 }

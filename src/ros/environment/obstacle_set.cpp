@@ -48,9 +48,10 @@ void ObstacleSet::apply(const Changes& changes, const std::vector<ros::Time>& st
     }
     step_stamps.resize(steps.size(), stamps[i].isZero() ? now : stamps[i]);
   }
+  hooks_.check(steps);
   world_.apply(steps);
   for (std::size_t i = 0; i < steps.size(); ++i) {
-    tracks_.take(steps[i], step_stamps[i]);
+    hooks_.take(steps[i], step_stamps[i]);
   }
   names_ = std::move(names);
 }

@@ -2,9 +2,11 @@
 
 #include <ros/time.h>
 
+#include <functional>
 #include <memory>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "fiber_proximity/Obstacle.h"
@@ -17,17 +19,33 @@
 
 namespace fiber_proximity_ros {
 
+/// Who takes part in changes of obstacles.
+struct ChangeHooks {
+  /// Called before they are made: std::invalid_argument that it throws refuses all of them.
+  std::function<void(const std::vector<fiber::ObjectChange>& changes)> check;
+
+  /// Called with each that has been made, and when the object was there.
+  std::function<void(const fiber::ObjectChange& change, const ros::Time& stamp)> take;
+};
+
 /// The objects of the world that came as obstacles, and so not those of robot and cloud.
 class ObstacleSet {
  public:
-  /// @param world, tracks must outlive this
-  ObstacleSet(fiber::World& world, ObjectTracks& tracks) : world_(world), tracks_(tracks) {}
+  /// @param world must outlive this
+  ObstacleSet(fiber::World& world, ChangeHooks hooks) : world_(world), hooks_(std::move(hooks)) {}
+
+  /// @param tracks takes the changes; must outlive this, as the world
+  ObstacleSet(fiber::World& world, ObjectTracks& tracks)
+      : ObstacleSet(world, {[](const auto& /*changes*/) {},
+                            [&tracks](const fiber::ObjectChange& change, const ros::Time& stamp) {
+                              tracks.take(change, stamp);
+                            }}) {}
 
   /// Applies the changes, which are in the fixed frame, or none. A REMOVE of an empty name is that
   /// of all obstacles.
   /// @param stamps    when objects were there, by change; zero: now
   /// @param cancelled names that a REMOVE may have even if there is no such obstacle
-  /// @throws std::invalid_argument as fiber::World::apply
+  /// @throws std::invalid_argument as fiber::World::apply, and for what is checked
   void apply(const std::vector<fiber::ObjectChange>& changes, const std::vector<ros::Time>& stamps,
              const std::set<std::string>& cancelled = {});
 
@@ -40,7 +58,7 @@ class ObstacleSet {
 
  private:
   fiber::World& world_;
-  ObjectTracks& tracks_;
+  ChangeHooks hooks_;
   std::set<std::string> names_;
 };
 

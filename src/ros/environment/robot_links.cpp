@@ -8,6 +8,8 @@
 
 #include "src/environment/obstacle_parts.hpp"
 #include "src/ros/environment/obstacle_change.hpp"
+#include "src/text/join.hpp"
+#include "src/text/quote.hpp"
 
 namespace fiber_proximity_ros {
 namespace {
@@ -60,15 +62,41 @@ RobotLink read_link(const urdf::Link& link, const MeshLoader& meshes) {
   return read;
 }
 
+urdf::Model read_model(const std::string& description) {
+  urdf::Model model;
+  if (!model.initString(description)) {
+    throw std::invalid_argument("the robot's description is no URDF of a robot (see the log)");
+  }
+  return model;
+}
+
+/// A link that must be there and have collision geometry.
+RobotLink read_link_of(const std::string& description, const std::string& name,
+                       const MeshLoader& meshes) {
+  const urdf::Model model = read_model(description);
+  const auto found = model.links_.find(name);
+  if (found == model.links_.end()) {
+    std::vector<std::string> names;
+    for (const auto& [known, link] : model.links_) {
+      names.push_back(known);
+    }
+    throw std::invalid_argument(
+        "the robot " + fiber::quote(model.getName()) +
+        " has no such link, it has: " + fiber::shortened(fiber::join(names)));
+  }
+  if (found->second->collision_array.empty()) {
+    throw std::invalid_argument("this link of the robot " + fiber::quote(model.getName()) +
+                                " has no collision geometry, it needs some");
+  }
+  return read_link(*found->second, meshes);
+}
+
 using Operation = fiber::ObjectChange::Operation;
 
 }  // namespace
 
 std::vector<RobotLink> read_robot(const std::string& description, const MeshLoader& meshes) {
-  urdf::Model model;
-  if (!model.initString(description)) {
-    throw std::invalid_argument("the robot's description is no URDF of a robot (see the log)");
-  }
+  const urdf::Model model = read_model(description);
   std::vector<RobotLink> links;
   for (const auto& [name, link] : model.links_) {
     if (!link->collision_array.empty()) {
@@ -80,6 +108,30 @@ std::vector<RobotLink> read_robot(const std::string& description, const MeshLoad
                                 "' has no collision geometry, it needs that of 1 link at least");
   }
   return links;
+}
+
+std::string robot_description(const ros::NodeHandle& node, const std::string& parameter) {
+  try {
+    std::string description;
+    if (!node.getParam(parameter, description)) {
+      throw std::invalid_argument("parameter " + node.resolveName(parameter) +
+                                  " is not set, it must be the URDF of the robot");
+    }
+    return description;
+  } catch (const ros::InvalidNameException& error) {
+    throw std::invalid_argument(fiber::quote(parameter) +
+                                " is not the name of a parameter: " + error.what());
+  }
+}
+
+fiber::LinkSource robot_links(const ros::NodeHandle& node, const MeshLoader& meshes) {
+  return [node, meshes](const std::string& link, const std::string& named) {
+    const std::string parameter = named.empty() ? "robot_description" : named;
+    const std::string description = robot_description(node, parameter);
+    return fiber::with_context("parameter " + node.resolveName(parameter), [&] {
+      return read_link_of(description, link, meshes).object.shapes;
+    });
+  };
 }
 
 RobotLinks::RobotLinks(const std::vector<RobotLink>& links, double timeout) : timeout_(timeout) {

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <ros/node_handle.h>
+
 #include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "fiber_proximity/environment/scene/environment_scene.hpp"
 #include "fiber_proximity/environment/shapes.hpp"
 #include "fiber_proximity/environment/world.hpp"
 #include "src/ros/environment/mesh_loader.hpp"
@@ -25,6 +28,15 @@ struct RobotLink {
 /// @param description URDF
 /// @throws std::invalid_argument for what is no URDF, and naming the link whose geometry is bad
 std::vector<RobotLink> read_robot(const std::string& description, const MeshLoader& meshes);
+
+/// The URDF that a parameter has.
+/// @throws std::invalid_argument naming the parameter, if it is not set or no name
+std::string robot_description(const ros::NodeHandle& node, const std::string& parameter);
+
+/// Gives the shapes of links whose robots are described by parameters, by default that with the
+/// name robot_description.
+/// @param node in whose namespace parameters are
+fiber::LinkSource robot_links(const ros::NodeHandle& node, const MeshLoader& meshes);
 
 /// The links of a robot where tf has them. One that tf does not know, or has not heard of for
 /// long, is left out of the world and unknown; the rest goes on.

@@ -240,17 +240,23 @@ ros::Publisher& SimForces::wrench_topic(const fiber::SimScene& scene, const Hold
 }
 
 void SimForces::advertise_obstacles(const fiber::SimScene& scene) {
-  if (scene.motions() == nullptr || !obstacle_wrenches_.empty()) {
+  std::vector<std::string> names;
+  if (scene.motions() != nullptr) {
+    for (const fiber::MovingObstacle& obstacle : scene.motions()->obstacles()) {
+      names.push_back(obstacle.object.name);
+    }
+  }
+  if (names == obstacle_names_) {
     return;
   }
-  std::vector<std::string> names;
-  for (const fiber::MovingObstacle& obstacle : scene.motions()->obstacles()) {
-    names.push_back(obstacle.object.name);
-  }
+  obstacle_names_ = names;
+  // Publishers of those that stay are kept until all are advertised, so that listeners are, too.
+  std::vector<ros::Publisher> publishers;
   for (std::size_t i = 0; i < names.size(); ++i) {
-    obstacle_wrenches_.push_back(node_.advertise<geometry_msgs::WrenchStamped>(
+    publishers.push_back(node_.advertise<geometry_msgs::WrenchStamped>(
         "obstacle_wrenches/" + allowed_name(names, i), 1));
   }
+  obstacle_wrenches_ = std::move(publishers);
 }
 
 bool SimForces::has_listeners() const {

@@ -38,6 +38,7 @@ class SimForces {
   void begin() {
     wrenches_.clear();
     obstacle_wrenches_.clear();
+    obstacle_names_.clear();
   }
 
   /// @param header of the frame
@@ -57,6 +58,7 @@ class SimForces {
   ros::Publisher drawing_;
   std::map<Hold, ros::Publisher> wrenches_;
   std::vector<ros::Publisher> obstacle_wrenches_;  // by obstacle that moves
+  std::vector<std::string> obstacle_names_;        // of these
   fiber_proximity::ForceArray message_;
   visualization_msgs::MarkerArray markers_;
   MarkerCanvas::Counts drawn_;

@@ -5,13 +5,13 @@
 
 #include <stdexcept>
 
+#include "src/sim/scene/obstacles.hpp"
 #include "src/sim/scene/reach.hpp"
 #include "src/text/quote.hpp"
+#include "src/text/with_context.hpp"
 
 namespace fiber_proximity_ros {
 namespace {
-
-constexpr double fastest_frame = 5.0;  // [m/s]
 
 /// Tells when something has stopped to follow its frame, and when it follows again.
 /// @param how it stopped, and why
@@ -37,7 +37,8 @@ void SimFrames::watch(const Followed& followed, Watch& watch, const std::string&
        watch.is_frozen);
 }
 
-void SimFrames::wait_for(const fiber::SimScene& scene, double timeout) const {
+void SimFrames::wait_for(const fiber::SimDescription& description, const fiber::SimScene& scene,
+                         double timeout) const {
   const ros::SteadyTime begin = ros::SteadyTime::now();
   const auto wait = [&](const auto& followed) {
     while (ros::ok()) {
@@ -59,6 +60,10 @@ void SimFrames::wait_for(const fiber::SimScene& scene, double timeout) const {
   }
   for (const fiber::FollowedObstacle& followed : scene.obstacle_frames) {
     const Eigen::Isometry3d pose = wait(followed) * followed.in_frame;
+    fiber::EnvironmentObject object = scene.motions()->obstacles()[followed.obstacle].object;
+    object.pose = pose;
+    fiber::with_context(followed.what + ", where frame " + fiber::quote(followed.frame) + " has it",
+                        [&] { fiber::require_room(description, scene, object); });
     *followed.path = {{0.0, pose}};
     scene.stepper->moving_obstacles()->place(followed.obstacle, pose);
   }

@@ -11,6 +11,8 @@
 
 namespace fiber_proximity_ros {
 
+constexpr double fastest_frame = 5.0;  ///< [m/s] as after a gap they may be far away
+
 /// Moves holds that follow frames of tf. A hold stays where it is while tf does not know its frame,
 /// or nothing new of it has come for some time, and goes no further than its fibre reaches
 /// (lead()). It warns of both, and logs when the hold follows again.
@@ -23,9 +25,10 @@ class SimFrames {
   /// Waits until tf knows all frames of a scene that has just been made, and brings the obstacles
   /// that follow some to them.
   /// @param timeout [s] of wall time
-  /// @throws std::invalid_argument naming the scene's line, the fibre and the frame that did not
-  /// come
-  void wait_for(const fiber::SimScene& scene, double timeout) const;
+  /// @throws std::invalid_argument naming the scene's line, fibre or obstacle, and the frame: if it
+  ///         does not come, or fibres are where it has the obstacle
+  void wait_for(const fiber::SimDescription& description, const fiber::SimScene& scene,
+                double timeout) const;
 
   /// Leads all holds and obstacles to their frames during the next frame of the scene, no faster
   /// than 5 m/s, as after a gap they may be far away.

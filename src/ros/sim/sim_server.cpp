@@ -7,6 +7,7 @@
 #include <exception>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 #include "fiber_proximity/ObstacleArray.h"
 #include "fiber_proximity/ros/conversions.hpp"
@@ -64,7 +65,7 @@ void log_scene(const SimOptions& options, const fiber::SimDescription& descripti
 
 }  // namespace
 
-SimOptions read_sim_options(const ros::NodeHandle& private_node) {
+SimOptions read_sim_options(const ros::NodeHandle& node, const ros::NodeHandle& private_node) {
   const Parameters parameters(private_node, interface_of("cable_sim"));
   SimOptions options;
   parameters.read("scene", options.scene);
@@ -78,38 +79,41 @@ SimOptions read_sim_options(const ros::NodeHandle& private_node) {
   parameters.read("frame_timeout", options.frame_timeout);
   parameters.read("frame_wait", options.frame_wait);
   options.meshes = read_mesh_folders(parameters);
+  options.links = robot_links(node, options.meshes);
   return options;
 }
 
 fiber::SimDescription read_scene(const SimOptions& options) {
-  return fiber::read_sim_scene(fiber::load_yaml(options.scene), options.meshes);
+  return fiber::read_sim_scene(fiber::load_yaml(options.scene), options.meshes, {}, options.links);
 }
 
-SimServer::SimServer(const ros::NodeHandle& private_node, const SimOptions& options)
-    : SimServer(private_node, options,
+SimServer::SimServer(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
+                     const SimOptions& options)
+    : SimServer(node, private_node, options,
                 fiber::with_context("parameter " + private_node.resolveName("scene"),
                                     [&options] { return read_scene(options); })) {}
 
-SimServer::SimServer(const ros::NodeHandle& private_node, const SimOptions& options,
-                     const fiber::SimDescription& description)
+SimServer::SimServer(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
+                     const SimOptions& options, const fiber::SimDescription& description)
     : node_(private_node),
       options_(options),
       description_(std::make_shared<const fiber::SimDescription>(description)),
       scene_(fiber::make_sim_scene(description, options.threads)),
       world_(scene_.frame_id, private_node),
       frames_(world_, options.frame_timeout),
+      added_(node, world_, options.frame_wait),
       is_paused_(options.paused),
       next_frame_(ros::SteadyTime::now()),
       forces_(private_node) {
-  frames_.wait_for(scene_, options.frame_wait);
+  frames_.wait_for(description, scene_, options.frame_wait);
   log_scene(options_, description, scene_);
   fibers_ = node_.advertise<fiber_proximity::FiberArray>("fibers", 1, true);
   if (options_.clock) {
     clock_ = node_.advertise<rosgraph_msgs::Clock>("/clock", 1);
   }
-  obstacles_ = node_.advertise<fiber_proximity::ObstacleArray>("obstacles", 1, true);
+  obstacles_ = node_.advertise<fiber_proximity::ObstacleArray>("obstacles", 2, true);
   publish();
-  publish_obstacles({});
+  publish_obstacles();
   make_markers();
   advertise_services();
   timer_ = node_.createSteadyTimer(ros::WallDuration(scene_.time_step),
@@ -181,13 +185,15 @@ void SimServer::advance() {
 
 void SimServer::run_frame() {
   frames_.follow(scene_);
+  const bool had_motions = scene_.motions() != nullptr;
+  added_.apply(*description_, scene_);
   if (markers_ != nullptr) {
     markers_->apply(scene_);
   }
   scene_.advance();
   publish();
-  if (scene_.motions() != nullptr) {
-    publish_obstacles({});
+  if (had_motions || scene_.motions() != nullptr) {
+    publish_obstacles();
   }
   forces_.publish(scene_, message_.header);
   warn();
@@ -219,22 +225,26 @@ void SimServer::publish() {
   fibers_.publish(message_);
 }
 
-/// @param before objects of the scene before: those that the scene no longer has are removed
-void SimServer::publish_obstacles(const std::vector<fiber::EnvironmentObject>& before) {
-  const std::vector<fiber::EnvironmentObject> objects = scene_.objects();
-  fiber_proximity::ObstacleArray message;
-  for (const fiber::EnvironmentObject& old : before) {
-    const auto is_same = [&old](const auto& object) { return object.name == old.name; };
-    if (std::none_of(objects.begin(), objects.end(), is_same)) {
-      message.obstacles.emplace_back();
-      message.obstacles.back().id = old.name;
-      message.obstacles.back().operation = fiber_proximity::Obstacle::REMOVE;
-    }
+/// Those that are no longer there are removed, in a message of its own: whoever comes later gets
+/// the last one, and has none to remove.
+void SimServer::publish_obstacles() {
+  fiber_proximity::ObstacleArray present;
+  std::set<std::string> gone = std::exchange(obstacle_names_, {});
+  for (const fiber::EnvironmentObject& object : scene_.objects()) {
+    present.obstacles.push_back(to_obstacle(object, scene_.frame_id));
+    obstacle_names_.insert(object.name);
+    gone.erase(object.name);
   }
-  for (const fiber::EnvironmentObject& object : objects) {
-    message.obstacles.push_back(to_obstacle(object, scene_.frame_id));
+  fiber_proximity::ObstacleArray removed;
+  for (const std::string& name : gone) {
+    removed.obstacles.emplace_back();
+    removed.obstacles.back().id = name;
+    removed.obstacles.back().operation = fiber_proximity::Obstacle::REMOVE;
   }
-  obstacles_.publish(message);
+  if (!gone.empty()) {
+    obstacles_.publish(removed);
+  }
+  obstacles_.publish(present);
 }
 
 void SimServer::make_markers() {

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <atomic>
+#include <set>
 #include <string>
 
 #include "fiber_proximity/AttachFiber.h"
@@ -23,6 +24,7 @@
 #include "src/ros/sim/sim_forces.hpp"
 #include "src/ros/sim/sim_frames.hpp"
 #include "src/ros/sim/sim_markers.hpp"
+#include "src/ros/sim/sim_obstacles.hpp"
 #include "src/ros/support/clock_watch.hpp"
 #include "src/sim/scene/report.hpp"
 
@@ -38,17 +40,20 @@ struct SimOptions {
   double frame_timeout{};   ///< [s] of wall time without news of a frame that holds something
   double frame_wait{};      ///< [s] of wall time for such frames to come when the scene is loaded
   MeshLoader meshes;        ///< of the environment, from the folders of ~mesh_folders
+  fiber::LinkSource links;  ///< of robots, from the parameters that scenes name
 };
 
+/// @param node in whose namespace parameters with robots' URDF are
 /// @throws std::invalid_argument naming the parameter, its value and what is allowed
-SimOptions read_sim_options(const ros::NodeHandle& private_node);
+SimOptions read_sim_options(const ros::NodeHandle& node, const ros::NodeHandle& private_node);
 
 /// Reads the file of the scene.
 /// @throws std::invalid_argument as fiber::load_yaml and fiber::read_sim_scene
 fiber::SimDescription read_scene(const SimOptions& options);
 
 /// Stands in for a tracker: moves the fibres of a scene in real time, and publishes ~fibers;
-/// ~obstacles, the scene's environment, once; and forces, see SimForces.
+/// ~obstacles, what is around them, once or, where that moves, in each frame; and forces, see
+/// SimForces. Others may add obstacles, see SimObstacles.
 ///
 /// A frame that fails, because a step diverges or for whatever else it throws, stops the simulation
 /// for good: what was published last stays, services answer with the reason, ~reset begins again.
@@ -59,14 +64,15 @@ class SimServer {
  public:
   /// @throws std::invalid_argument as read_scene and fiber::make_sim_scene, and for a frame of tf
   ///         that does not come
-  SimServer(const ros::NodeHandle& private_node, const SimOptions& options);
+  SimServer(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
+            const SimOptions& options);
   ~SimServer();
   SimServer(const SimServer&) = delete;
   SimServer& operator=(const SimServer&) = delete;
 
  private:
-  SimServer(const ros::NodeHandle& private_node, const SimOptions& options,
-            const fiber::SimDescription& description);
+  SimServer(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
+            const SimOptions& options, const fiber::SimDescription& description);
 
   void advertise_services();
   SceneCopy copy_scene();
@@ -81,7 +87,7 @@ class SimServer {
   void warn();
   void make_markers();
   void publish();
-  void publish_obstacles(const std::vector<fiber::EnvironmentObject>& before);
+  void publish_obstacles();
 
   void step_frames(std::uint32_t count);
   bool reset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
@@ -102,6 +108,7 @@ class SimServer {
   fiber::SimScene scene_;
   FixedFrame world_;
   SimFrames frames_;
+  SimObstacles added_;
   bool is_paused_;
   std::string failure_;         // why the simulation has stopped; empty if it has not
   bool is_stepping_ = false;    // ~step runs
@@ -111,6 +118,7 @@ class SimServer {
   fiber_proximity::FiberArray message_;
   ros::Publisher fibers_;
   ros::Publisher obstacles_;
+  std::set<std::string> obstacle_names_;  // of those that were published last
   ros::Publisher clock_;
   SimForces forces_;
   std::array<ros::SteadyTime, fiber::SimWarning::kinds> warned_;  // of each kind the last time

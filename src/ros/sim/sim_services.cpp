@@ -81,15 +81,16 @@ bool SimServer::reset(std_srvs::Trigger::Request& /*request*/,
     // The file is read without the mutex: that may take long.
     const auto description = std::make_shared<const fiber::SimDescription>(read_scene(options_));
     fiber::SimScene scene = fiber::make_sim_scene(*description, options_.threads);
-    frames_.wait_for(scene, 0.0);
+    frames_.wait_for(*description, scene, 0.0);
     const std::lock_guard<FairMutex> lock(mutex_);
     std::swap(scene_, scene);
     description_ = description;
     forces_.begin();
     failure_.clear();
     interruption_ = "~reset began the scene again";
+    added_.begin(*description_, scene_);
     publish();
-    publish_obstacles(scene.objects());
+    publish_obstacles();
     make_markers();
   });
 }

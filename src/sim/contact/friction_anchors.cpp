@@ -58,6 +58,17 @@ void FrictionAnchors::sort(std::size_t edges) {
   }
 }
 
+void FrictionAnchors::remove_object(std::uint32_t object) {
+  const auto is_at = [object](const Anchor& anchor) {
+    return !anchor.points.is_of_rods() && anchor.points.rod_b == object;
+  };
+  anchors_.erase(std::remove_if(anchors_.begin(), anchors_.end(), is_at), anchors_.end());
+  for (Anchor& anchor : anchors_) {
+    anchor.points.rod_b -= !anchor.points.is_of_rods() && anchor.points.rod_b > object ? 1U : 0U;
+  }
+  sort(offsets_.empty() ? 0 : offsets_.size() - 1);
+}
+
 Vector3d FrictionAnchors::slip_at(const ContactPoints& points, const Vector3d& normal,
                                   double max_force, double stick_length) const {
   if (anchors_.empty()) {

@@ -28,6 +28,9 @@ class FrictionAnchors {
   /// @param edges number of them, as Rods counts edges
   void sort(std::size_t edges);
 
+  /// Removes those at an object; the objects behind it are counted from one less then.
+  void remove_object(std::uint32_t object);
+
   /// The energy of all [J].
   double energy() const { return energy_; }
 

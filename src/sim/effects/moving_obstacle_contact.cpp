@@ -137,10 +137,18 @@ MovingObstacleContact::MovingObstacleContact(std::shared_ptr<const ObstacleMotio
     : motions_(std::move(motions)), options_(options) {
   require_not_negative("environment_contact: the stiffness", options.stiffness, " N/m");
   require_share("environment_contact: the restitution", options.restitution);
-  if (!options.allowed.empty()) {
-    for (AllowedPair& pair : options_.allowed) {
-      pair = doubled(pair);
-    }
+  for (AllowedPair& pair : options_.allowed) {
+    pair = doubled(pair);
+  }
+  take_shapes();
+}
+
+/// Those of the obstacles that there are now.
+void MovingObstacleContact::take_shapes() {
+  revision_ = motions_->revision();
+  moving_.clear();
+  shapes_.clear();
+  if (!options_.allowed.empty()) {
     std::vector<EnvironmentObject> objects;
     for (const MovingObstacle& obstacle : motions_->obstacles()) {
       objects.push_back(obstacle.object);
@@ -169,6 +177,12 @@ MovingObstacleContact::MovingObstacleContact(std::shared_ptr<const ObstacleMotio
 MovingObstacleContact::~MovingObstacleContact() = default;
 
 void MovingObstacleContact::find(const Rods& rods, const TravelBound& bound, ContactSet& found) {
+  if (revision_ != motions_->revision()) {
+    take_shapes();
+  }
+  if (shapes_.empty()) {
+    return;
+  }
   Finder finder(options_, rods, bound, found);
   for (ObstacleShape& shape : shapes_) {
     shape.pose = shape.moving->motion->start * shape.moving->in_object;

@@ -24,15 +24,36 @@ Isometry3d placed_at(const MovingObstacle& obstacle, double time) {
 
 }  // namespace
 
+ObstacleMotions* Contacts::motions() const {
+  return motions_ != nullptr && !motions_->obstacles().empty() ? motions_.get() : nullptr;
+}
+
 ObstacleMotions::ObstacleMotions(std::vector<MovingObstacle> obstacles, std::uint32_t first_index)
-    : obstacles_(std::move(obstacles)), first_index_(first_index) {
-  for (MovingObstacle& obstacle : obstacles_) {
-    obstacle.object.pose = placed_at(obstacle, 0.0);
-    validate(obstacle.object);
-    poses_.push_back(obstacle.object.pose);
-    motions_.push_back({poses_.back(), poses_.back(), poses_.back(), 0.0});
+    : first_index_(first_index) {
+  for (MovingObstacle& obstacle : obstacles) {
+    add(std::move(obstacle), 0.0);
   }
-  begin_ = poses_;
+}
+
+void ObstacleMotions::add(MovingObstacle obstacle, double time) {
+  obstacle.object.pose = placed_at(obstacle, time);
+  validate(obstacle.object);
+  const Isometry3d& pose = obstacle.object.pose;
+  poses_.push_back(pose);
+  begin_.push_back(pose);
+  motions_.push_back({pose, pose, pose, 0.0});
+  obstacles_.push_back(std::move(obstacle));
+  ++revision_;
+}
+
+void ObstacleMotions::remove(std::uint32_t obstacle) {
+  require(obstacle);
+  const auto erase = [obstacle](auto& list) { list.erase(list.begin() + obstacle); };
+  erase(obstacles_);
+  erase(poses_);
+  erase(begin_);
+  erase(motions_);
+  ++revision_;
 }
 
 std::vector<EnvironmentObject> ObstacleMotions::placed() const {

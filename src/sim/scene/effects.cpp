@@ -232,13 +232,11 @@ std::unique_ptr<Contacts> make_contacts(const SimDescription& description, SimSc
         EnvironmentContact::Options{stiffness, description.allowed, restitution});
   });
   std::shared_ptr<ObstacleMotions> motions;
-  if (!description.moving_obstacles.empty()) {
-    add("environment_contact", [&](double stiffness, double restitution) {
-      motions = make_obstacle_motions(description, scene);
-      return std::make_unique<MovingObstacleContact>(
-          motions, EnvironmentContact::Options{stiffness, description.allowed, restitution});
-    });
-  }
+  add("environment_contact", [&](double stiffness, double restitution) {
+    motions = make_obstacle_motions(description, scene);  // more may come
+    return std::make_unique<MovingObstacleContact>(
+        motions, EnvironmentContact::Options{stiffness, description.allowed, restitution});
+  });
   auto friction = make_adjustable(description, "friction", make_friction, scene);
   return sources.empty() ? nullptr
                          : std::make_unique<Contacts>(std::move(sources), std::move(friction),

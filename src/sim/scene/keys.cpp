@@ -139,6 +139,14 @@ std::vector<SceneMap> shape_maps() {
 
 std::vector<SceneMap> obstacle_maps() {
   return {
+      {"obstacle link",
+       "An obstacle of `environment` that is a link of a robot, for cable_sim: its shapes are the "
+       "link's collision geometry, and it moves as the link's frame of tf does.",
+       false,
+       {other_key("link", "a string", needed, "", "its name, in the URDF and in tf"),
+        other_key("id", "a string", "the link's name", "", "the obstacle's name"),
+        other_key("robot_description", "the name of a parameter", "robot_description", "",
+                  "where the URDF is")}},
       {"obstacle motion",
        "The key `motion` of an obstacle of `environment`. Fibres give way to it; where they "
        "cannot, "

@@ -109,10 +109,17 @@ Isometry3d pose_of(const SimObstacleWaypoint& waypoint, const Vector3d& axis) {
 }  // namespace
 
 SimMovingObstacle read_obstacle_motion(const SceneObstacle& read) {
-  const YamlField& motion = *read.motion;
   SimMovingObstacle obstacle;
   obstacle.place = read.place;
   obstacle.object = read.object;
+  const SimObstacleWaypoint beginning{0.0, read.object.pose.translation(),
+                                      Quaterniond(read.object.pose.linear()), 0.0};
+  if (read.link) {
+    obstacle.frame = read.link;
+    obstacle.path = {beginning};
+    return obstacle;
+  }
+  const YamlField& motion = *read.motion;
   motion.require_map(key_names("obstacle motion"));
   const auto path = motion.find("path");
   const auto frame = motion.find("frame");
@@ -130,8 +137,6 @@ SimMovingObstacle read_obstacle_motion(const SceneObstacle& read) {
     }
     obstacle.axis.normalize();
   }
-  const SimObstacleWaypoint beginning{0.0, read.object.pose.translation(),
-                                      Quaterniond(read.object.pose.linear()), 0.0};
   if (frame) {
     obstacle.frame = frame->text();
     obstacle.path = {beginning};
@@ -208,34 +213,6 @@ void copy_obstacle_frames(const SimScene& scene, SimScene& copy) {
     copy.stepper->moving_obstacles()->redirect(followed.obstacle,
                                                [own](double time) { return pose_at(*own, time); });
   }
-}
-
-std::shared_ptr<const Environment> environment_at_start(const SimDescription& scene) {
-  if (scene.moving_obstacles.empty()) {
-    return scene.environment;
-  }
-  std::vector<EnvironmentObject> objects = scene.environment->objects();
-  for (const SimMovingObstacle& obstacle : scene.moving_obstacles) {
-    if (!obstacle.frame) {
-      objects.push_back(obstacle.object);
-    }
-  }
-  return std::make_shared<const Environment>(std::move(objects));
-}
-
-std::vector<EnvironmentObject> SimScene::objects() const {
-  std::vector<EnvironmentObject> all = environment->objects();
-  if (const ObstacleMotions* const moving = motions()) {
-    const std::vector<EnvironmentObject> placed = moving->placed();
-    all.insert(all.end(), placed.begin(), placed.end());
-  }
-  return all;
-}
-
-const std::string& SimScene::object_name(std::uint32_t object) const {
-  const std::size_t still = environment->objects().size();
-  return object < still ? environment->objects()[object].name
-                        : motions()->obstacles()[object - still].object.name;
 }
 
 }  // namespace fiber

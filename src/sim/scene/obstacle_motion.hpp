@@ -9,7 +9,8 @@
 
 namespace fiber {
 
-/// Reads the key `motion` of an obstacle, a map of
+/// How an obstacle moves: a link of a robot as its frame of tf, others by the key `motion`, a map
+/// of
 ///   path:   a list of {time, position, orientation, angle}, in between straight lines and turns at
 ///           constant rates; what is not given stays as it was, to begin with as `pose` has it
 ///   axis:   about which `angle` turns it, in its own frame; z if there is none
@@ -25,9 +26,5 @@ std::shared_ptr<ObstacleMotions> make_obstacle_motions(const SimDescription& des
 
 /// Has the obstacles of a copy go on along what is known of their frames of tf now.
 void copy_obstacle_frames(const SimScene& scene, SimScene& copy);
-
-/// All obstacles as the scene begins, those that move behind the others; without those that follow
-/// frames of tf, which are nowhere yet.
-std::shared_ptr<const Environment> environment_at_start(const SimDescription& scene);
 
 }  // namespace fiber

@@ -11,6 +11,7 @@
 #include "src/sim/scene/joints.hpp"
 #include "src/sim/scene/keys.hpp"
 #include "src/sim/scene/obstacle_motion.hpp"
+#include "src/sim/scene/obstacles.hpp"
 #include "src/sim/scene/parts.hpp"
 #include "src/sim/scene/reach.hpp"
 #include "src/sim/scene/resolution.hpp"
@@ -220,34 +221,6 @@ void read_stepper_options(const YamlField& document, StepperOptions& options) {
   }
 }
 
-/// Reads the obstacles of a scene, which are all in its frame.
-/// @returns what may touch, by names
-EnvironmentScene read_environment(const std::optional<YamlField>& field, const MeshSource& meshes,
-                                  SimDescription& scene) {
-  const SimEffect* contact = scene.find_effect("environment_contact");
-  if (!field && contact != nullptr) {
-    throw std::invalid_argument(contact->place + ": the scene has no environment to touch");
-  }
-  const EnvironmentScene read =
-      field ? read_environment_scene(*field, meshes, true) : EnvironmentScene();
-  std::vector<EnvironmentObject> objects;
-  for (const SceneObstacle& obstacle : read.obstacles) {
-    if (!obstacle.frame_id.empty() && obstacle.frame_id != scene.frame_id) {
-      throw std::invalid_argument(field->place() + ": obstacle " + quote(obstacle.object.name) +
-                                  " is in frame " + quote(obstacle.frame_id) +
-                                  ", it must be in the scene's, " + quote(scene.frame_id));
-    }
-    if (obstacle.motion) {
-      scene.moving_obstacles.push_back(read_obstacle_motion(obstacle));
-    } else {
-      objects.push_back(obstacle.object);
-    }
-  }
-  scene.environment = std::make_shared<const Environment>(std::move(objects));
-  scene.moving_count = scene.moving_obstacles.size();
-  return read;
-}
-
 }  // namespace
 
 bool SimSettings::has_effect(const std::string& name) const {
@@ -261,7 +234,7 @@ const SimEffect* SimDescription::find_effect(const std::string& name) const {
 }
 
 SimDescription read_sim_scene(const YamlField& document, const MeshSource& meshes,
-                              const FrameTimer& timer) {
+                              const FrameTimer& timer, const LinkSource& links) {
   document.require_map(key_names("scene"));
   SimDescription scene;
   if (const auto frame_id = document.find("frame_id")) {
@@ -275,7 +248,7 @@ SimDescription read_sim_scene(const YamlField& document, const MeshSource& meshe
       lists.joints ? read_joints(*lists.joints) : std::vector<JointEntry>();
   const SceneResolution resolution(document, gravity_of(scene), joints);
   const EnvironmentScene environment =
-      read_environment(document.find("environment"), meshes, scene);
+      read_environment(document.find("environment"), meshes, links, scene);
   scene.separates_overlaps = read_choice(document.find("initial_overlap"), "refuse", "separate");
   const auto complete = [&](SimDescription& made) {
     made.allowed = resolve(environment.allowed, made.fiber_names);
@@ -334,6 +307,7 @@ SimScene copy_sim_scene(const SimDescription& description, const SimScene& scene
   SimScene copy = make_scene(description, threads, [](SimScene& /*scene*/, Rods& /*rods*/) {});
   copy.overlap_note = scene.overlap_note;
   copy.parameters.set(scene.parameters.all());
+  copy_added_obstacles(scene, copy);
   copy.stepper->take_state(*scene.stepper);
   copy.paths.clear();
   for (const auto& [hold, path] : scene.paths) {

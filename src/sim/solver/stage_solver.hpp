@@ -64,6 +64,9 @@ class StageSolver {
     travel_bound_ = other.travel_bound_;
   }
 
+  /// Forgets what sticks to an object; those behind it are counted from one less then.
+  void remove_object(std::uint32_t object) { anchors_.remove_object(object); }
+
   /// The elastic energy of what sticks by friction [J].
   double anchor_energy() const { return anchors_.energy(); }
 

@@ -142,6 +142,8 @@ std::string scene_with(const SceneMap& map, const std::string& key, const std::s
     const std::string table = "table: [" + with(others({{"time", "0"}})) + "]";
     effects = key == "acceleration" ? "{gravity: {" + table + "}}"
                                     : "twist, {load: [{fiber: a, node: last, " + table + "}]}";
+  } else if (map.name == "obstacle link") {
+    environment = ", environment: {obstacles: [" + with(others({{"link", "hand"}})) + "]}";
   } else if (map.name.rfind("obstacle", 0) == 0) {
     const std::string waypoint =
         map.name == "obstacle waypoint" ? with(others({{"time", "0"}})) : "{time: 0}";
@@ -176,8 +178,14 @@ std::string scene_with(const SceneMap& map, const std::string& key, const std::s
 class SceneKeys : public SimSceneTest {
  protected:
   std::string error_with(const SceneMap& map, const std::string& key, const std::string& value) {
-    const std::string text = scene_with(map, key, value);
-    return error_of([&] { read(text); });
+    test_meshes::write(file_, scene_with(map, key, value));
+    const LinkSource any_link = [](const auto& /*link*/, const auto& /*description*/) {
+      return std::vector<PlacedShape>{{SphereShape{0.1}, Eigen::Isometry3d::Identity()}};
+    };
+    return error_of([&] {
+      make_sim_scene(read_sim_scene(load_yaml(file_), mesh_files(folder_.path("")), {}, any_link),
+                     1);
+    });
   }
 };
 

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "src/sim/scene/force_file.hpp"
+#include "src/sim/scene/obstacles.hpp"
 #include "src/sim/scene/report.hpp"
 #include "test/sim/scene/scene_fixture.hpp"
 
@@ -104,6 +105,93 @@ TEST_F(SimSceneTest, MotionsThatCannotBeAreRefused) {
   refused("{period: 1, frame: tool}", "absent where there is no path");
   refused("{path: [{time: 0}, {time: 0.1, position: [200, 0, 0]}]}", "at most 1000");
   refused("{path: [{time: 0}, {time: 0.001, angle: 100}]}", "at most 1000");
+}
+
+/// The links that a robot has: `hand`, a ball, and what is wrong with others.
+std::vector<PlacedShape> ball_of(const std::string& link, const std::string& description) {
+  if (link == "hand" && (description.empty() || description == "/other")) {
+    return {{SphereShape{0.05}, Eigen::Isometry3d(Eigen::Translation3d(0, 0, 0.2))}};
+  }
+  if (link == "flat") {
+    return {{SphereShape{-1.0}, Eigen::Isometry3d::Identity()}};
+  }
+  throw std::invalid_argument("there is no link " + link + " in '" + description + "'");
+}
+
+std::string with_obstacle(const std::string& obstacle) {
+  return scene_text(line, "[stretch, bend, environment_contact]",
+                    "environment:\n  obstacles:\n    - " + obstacle + "\n");
+}
+
+class SceneLinks : public SimSceneTest {
+ protected:
+  SimScene read_with_links(const std::string& obstacle) {
+    test_meshes::write(file_, with_obstacle(obstacle));
+    return make_sim_scene(read_sim_scene(load_yaml(file_), mesh_files(""), {}, ball_of), 1);
+  }
+};
+
+TEST_F(SceneLinks, AreObstaclesThatFollowTheirFrames) {
+  for (const std::string id : {"", ", id: palm"}) {
+    const SimScene scene = read_with_links("{link: hand, robot_description: /other" + id + "}");
+    ASSERT_EQ(scene.obstacle_frames.size(), 1U);
+    const FollowedObstacle& followed = scene.obstacle_frames.front();
+    EXPECT_EQ(followed.frame, "hand");
+    EXPECT_TRUE(followed.in_frame.isApprox(Eigen::Isometry3d::Identity(), 0.0));
+    EXPECT_NE(followed.what.find(id.empty() ? "obstacle 'hand'" : "obstacle 'palm'"),
+              std::string::npos);
+    const EnvironmentObject& object = scene.motions()->obstacles().front().object;
+    EXPECT_EQ(object.name, id.empty() ? "hand" : "palm");
+    ASSERT_EQ(object.shapes.size(), 1U);
+    EXPECT_EQ(std::get<SphereShape>(object.shapes[0].shape).radius, 0.05);
+    EXPECT_EQ(object.shapes[0].pose.translation(), Vector3d(0, 0, 0.2));
+  }
+}
+
+TEST_F(SceneLinks, ThatCannotBeAreRefused) {
+  const auto refused = [&](const std::string& obstacle, const std::string& why) {
+    const std::string found = error_of([&] { read_with_links(obstacle); });
+    EXPECT_EQ(found.rfind(file_ + ":1", 0), 0U) << found;
+    EXPECT_NE(found.find(why), std::string::npos) << found;
+  };
+  refused("{link: foot}", "10: environment.obstacles[0].link is foot: there is no link foot in ''");
+  refused("{link: hand, robot_description: robot}", "there is no link hand in 'robot'");
+  refused("{link: flat}", "radius");
+  refused("{link: hand, robot_description: ''}", "robot_description is");
+  refused("{link: hand, id: ''}", "name");
+  refused("{link: hand, motion: {frame: tool}}", "has the unknown key 'motion'");
+  refused("{link: hand, frame_id: world}", "has the unknown key 'frame_id'");
+  refused("{link: [hand]}", "link");
+  refused("{link: hand}\n    - {link: hand}",
+          "11: environment.obstacles[1] has the id 'hand' of another obstacle");
+  refused("[link]", "a map");
+}
+
+TEST_F(SceneLinks, AreForThoseWhoKnowRobots) {
+  const std::string found = error(with_obstacle("{link: hand}"));
+  EXPECT_NE(found.find("10: environment.obstacles[0].link is hand: links of robots are for "
+                       "cable_sim"),
+            std::string::npos)
+      << found;
+}
+
+/// Where they follow frames of tf, that is known only as the scene begins.
+TEST_F(SceneLinks, HaveRoomWhereTheyAppear) {
+  const std::string text = with_obstacle("{link: hand}");
+  test_meshes::write(file_, text);
+  const SimDescription description = read_sim_scene(load_yaml(file_), mesh_files(""), {}, ball_of);
+  const SimScene scene = make_sim_scene(description, 1);
+  EnvironmentObject hand = scene.motions()->obstacles().front().object;
+  const auto error_at = [&](double z) {
+    hand.pose = Eigen::Isometry3d(Eigen::Translation3d(0.5, 0.0, z - 0.2));
+    return error_of([&] { require_room(description, scene, hand); });
+  };
+  EXPECT_EQ(error_at(0.061), "no error");
+  EXPECT_EQ(error_at(0.05995), "no error") << "it touches";
+  EXPECT_EQ(error_at(0.05).rfind("segment ", 0), 0U) << error_at(0.05);
+  EXPECT_NE(error_at(0.05).find("of fibre 'cable' is 10 mm deep inside of it, 0.1 mm is the most"),
+            std::string::npos)
+      << error_at(0.05);
 }
 
 }  // namespace

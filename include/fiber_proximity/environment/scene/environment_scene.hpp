@@ -38,12 +38,24 @@ std::shared_ptr<const TriangleMesh> read_mesh_file(const std::filesystem::path& 
 /// begin with a slash.
 MeshSource mesh_files(const std::filesystem::path& folder);
 
+/// Gives the collision shapes of a link of a robot, in the link's frame.
+/// @param description where the robot's URDF is, as the document calls it; empty: where it is by
+///        default
+/// @throws std::invalid_argument saying what is wrong with them
+using LinkSource = std::function<std::vector<PlacedShape>(const std::string& link,
+                                                          const std::string& description)>;
+
+/// For whoever knows no robots.
+/// @throws std::invalid_argument always
+std::vector<PlacedShape> no_links(const std::string& link, const std::string& description);
+
 /// An object around the fibres, and the frame that its pose is in.
 struct SceneObstacle {
   std::string frame_id;  ///< empty: that of the fibres
   EnvironmentObject object;
   std::string place;                ///< in the document, for errors
   std::optional<YamlField> motion;  ///< how it moves, where that may be told
+  std::optional<std::string> link;  ///< of a robot, that it is
 };
 
 /// Obstacles around the fibres from the start.
@@ -56,10 +68,15 @@ struct EnvironmentScene {
 /// messages Obstacle and AllowedPair, but `frame_id` stands for the header; vectors are lists of
 /// three numbers, quaternions of four, x y z w. Primitives have the names box, sphere, cylinder or
 /// cone as type; meshes may be `{resource: file:///..., scale: [1, 1, 1]}`.
-/// @param may_move whether obstacles may have the key `motion`, which the caller reads
 /// @throws std::invalid_argument naming file, line, field and value, or the obstacle, and what is
 ///         allowed
-EnvironmentScene read_environment_scene(const YamlField& document, const MeshSource& meshes,
-                                        bool may_move = false);
+EnvironmentScene read_environment_scene(const YamlField& document, const MeshSource& meshes);
+
+/// Reads obstacles that may move, too: those with the key `motion`, which the caller reads, and
+/// links of robots, `{link: NAME, id: NAME, robot_description: NAME}`, whose ids are by default
+/// those of the links.
+/// @throws std::invalid_argument alike
+EnvironmentScene read_moving_environment_scene(const YamlField& document, const MeshSource& meshes,
+                                               const LinkSource& links);
 
 }  // namespace fiber

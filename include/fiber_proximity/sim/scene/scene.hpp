@@ -164,10 +164,11 @@ using FrameTimer = std::function<std::vector<double>(const SimDescription& scene
 /// docs/scene_keys.md says what they mean.
 /// @param timer for scenes with `real_time`, whose segments and substeps are chosen by it; without
 ///              one, the processor time of this thread is measured, for about two seconds
+/// @param links of robots, for obstacles that are some
 /// @throws std::invalid_argument naming file, line, field and value, and what is allowed; and the
 ///         fibre where it is about one
 SimDescription read_sim_scene(const YamlField& document, const MeshSource& meshes,
-                              const FrameTimer& timer = {});
+                              const FrameTimer& timer = {}, const LinkSource& links = no_links);
 
 /// Holds nodes as told, in place of the holds that the scene has there.
 /// @param list as that of the effect attachment, which the scene must name
@@ -239,6 +240,12 @@ struct FollowedObstacle {
   std::shared_ptr<ObstaclePath> path;  ///< in the world, never empty
 };
 
+/// An obstacle that came while a scene runs.
+struct AddedObstacle {
+  std::string name;
+  std::shared_ptr<ObstaclePath> path;  ///< in the world, never empty
+};
+
 /// A scene of the simulation, ready to move.
 struct SimScene : SimSettings {
   explicit SimScene(const SimSettings& settings) : SimSettings(settings) {}
@@ -248,6 +255,9 @@ struct SimScene : SimSettings {
   std::vector<FollowedFrame> frames;       ///< whose placements are to be kept up to date
 
   std::vector<FollowedObstacle> obstacle_frames;  ///< alike
+
+  /// Those among the obstacles that move that came later, behind the scene's own.
+  std::vector<AddedObstacle> added_obstacles;
 
   /// By hold, as Attachment::add() calls it: of holds whose paths may change.
   std::map<std::uint32_t, std::shared_ptr<const PlacementPath>> paths;
