@@ -41,10 +41,10 @@ function(fiber_proximity_precompile target)
   endif()
 endfunction()
 
-# fiber_proximity_compile_together(TARGET MOST)
-# Compiles the target's sources together, folder by folder, as many at once, if sources are not compiled one by
+# fiber_proximity_compile_together(TARGET)
+# Compiles the target's sources together, those of a folder at once, if sources are not compiled one by
 # one. Those that Highway compiles once for each instruction set stay alone: they include themselves.
-function(fiber_proximity_compile_together target most)
+function(fiber_proximity_compile_together target)
   if(NOT FIBER_PROXIMITY_UNITY_BUILD)
     return()
   endif()
@@ -60,18 +60,15 @@ function(fiber_proximity_compile_together target most)
     endif()
     get_filename_component(folder ${source} DIRECTORY)
     string(MAKE_C_IDENTIFIER "in_${folder}" folder)
-    list(APPEND sources_${folder} ${source})
-    list(LENGTH sources_${folder} count)
-    math(EXPR chunk "(${count} - 1) / ${most}")
-    set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${target}_${folder}_${chunk})
+    set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${target}_${folder})
   endforeach()
 endfunction()
 
 # fiber_proximity_parse_once(TARGET HEADER...)
-# A dozen sources at once, which two processors can share; if sources are compiled one by one, precompiles these
+# All sources of a folder at once; if sources are compiled one by one, precompiles these
 # headers.
 function(fiber_proximity_parse_once target)
-  fiber_proximity_compile_together(${target} 12)
+  fiber_proximity_compile_together(${target})
   if(NOT FIBER_PROXIMITY_UNITY_BUILD)
     fiber_proximity_precompile(${target} ${ARGN})
   endif()

@@ -67,7 +67,7 @@ set_target_properties(fiber_proximity_python PROPERTIES
   INSTALL_RPATH "$ORIGIN;$ORIGIN/${libraries}")
 # Arrays that it is given may lie anywhere.
 set_target_properties(fiber_proximity_python PROPERTIES SANITIZE_ALIGNMENT ON)
-fiber_proximity_compile_together(fiber_proximity_python 5)
+fiber_proximity_compile_together(fiber_proximity_python)
 fiber_proximity_precompile(fiber_proximity_python ${core_headers} <pybind11/numpy.h> <pybind11/stl.h>)
 fiber_proximity_compile_fast(fiber_proximity_python)
 install(TARGETS fiber_proximity_python LIBRARY DESTINATION ${python_folder})

@@ -88,7 +88,7 @@ target_link_libraries(fiber_proximity_ros
   PUBLIC fiber_proximity_sim fiber_proximity_compare fiber_proximity_paper fiber_proximity_cuda fiber_proximity_scenes ${catkin_LIBRARIES}
   PRIVATE fiber_proximity_accuracy fiber_proximity_options)
 # ROS's headers take half of the time of such a source, also of a dozen together.
-fiber_proximity_compile_together(fiber_proximity_ros 12)
+fiber_proximity_compile_together(fiber_proximity_ros)
 fiber_proximity_precompile(fiber_proximity_ros ${ros_headers})
 target_sources(fiber_proximity_ros PRIVATE ${interface_table}) # not there yet to be read for what is compiled together
 # Not all exported targets: messages in other languages need not be there first.

@@ -43,7 +43,7 @@ target_link_libraries(test_support PRIVATE fiber_proximity_options)
 # next (node_test's seven units of five sources took 96 s, one of all takes 36; g++ 12, Intel Xeon, 2026-11-28).
 function(fiber_proximity_compile_tests_together)
   foreach(name IN LISTS ARGN)
-    fiber_proximity_compile_together(${name} 1000)
+    fiber_proximity_compile_together(${name})
   endforeach()
 endfunction()
 

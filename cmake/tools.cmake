@@ -11,7 +11,7 @@ fiber_proximity_precompile(fiber_proximity_command_line ${tool_headers})
 # Tools hand on what libraries compute. CLI11 and json, most of what the compiler reads, are parsed once for all.
 function(fiber_proximity_compile_tool target)
   fiber_proximity_compile_fast(${target})
-  fiber_proximity_compile_together(${target} 12)
+  fiber_proximity_compile_together(${target})
   if(FIBER_PROXIMITY_PRECOMPILE_HEADERS)
     target_precompile_headers(${target} REUSE_FROM fiber_proximity_command_line)
   endif()

@@ -79,9 +79,9 @@ std::int64_t NumberArray::whole(std::size_t index) const {
 }
 
 std::string_view take_word(std::string_view& text) {
-  constexpr const char* blanks = " \t\r\n\f\v";
-  text.remove_prefix(std::min(text.size(), text.find_first_not_of(blanks)));
-  const std::string_view word = text.substr(0, text.find_first_of(blanks));
+  constexpr const char* white_space = " \t\r\n\f\v";
+  text.remove_prefix(std::min(text.size(), text.find_first_not_of(white_space)));
+  const std::string_view word = text.substr(0, text.find_first_of(white_space));
   text.remove_prefix(word.size());
   return word;
 }

@@ -37,7 +37,7 @@ void run(SimScene& scene, int frames) {
   }
 }
 
-const std::vector<Vector3d>& points_of(const SimScene& scene) {
+const std::vector<Vector3d>& nodes_of(const SimScene& scene) {
   return scene.stepper->rods().positions;
 }
 
@@ -62,15 +62,15 @@ TEST_F(AddedObstacles, PushAsThoseOfTheScene) {
   for (int frame = 0; frame < 40; ++frame) {
     run(expected, 1);
     run(scene, 1);
-    for (std::size_t i = 0; i < points_of(scene).size(); ++i) {
-      ASSERT_LT((points_of(scene)[i] - points_of(expected)[i]).norm(), 1e-6) << frame;
+    for (std::size_t i = 0; i < nodes_of(scene).size(); ++i) {
+      ASSERT_LT((nodes_of(scene)[i] - nodes_of(expected)[i]).norm(), 1e-6) << frame;
     }
     const RodForces forces = scene.stepper->forces();
     ASSERT_EQ(forces.obstacles.size(), 1U);
     EXPECT_EQ(forces.obstacles[0].object, 1U);
     strongest = std::max(strongest, forces.obstacles[0].force.norm());
   }
-  EXPECT_GT(points_of(scene)[2].z(), 0.1);
+  EXPECT_GT(nodes_of(scene)[2].z(), 0.1);
   EXPECT_GT(strongest, 0.0);
   EXPECT_EQ(scene.object_name(1), "ball");
   EXPECT_TRUE(placed(scene, *added).pose.translation().isApprox(Vector3d(0.5, 0.05, 0.1), 1e-12));
@@ -94,7 +94,7 @@ TEST_F(AddedObstacles, ThatGoLeaveTheOthersAsTheyAre) {
   };
   SimScene expected = make(false);
   SimScene scene = make(true);
-  EXPECT_EQ(points_of(scene), points_of(expected));
+  EXPECT_EQ(nodes_of(scene), nodes_of(expected));
   EXPECT_GT(expected.stepper->forces().obstacles[1].force.norm(), 0.0);
   remove_obstacle(scene, *find_added(scene, "other"));
   EXPECT_EQ(find_added(scene, "other"), nullptr);
@@ -104,7 +104,7 @@ TEST_F(AddedObstacles, ThatGoLeaveTheOthersAsTheyAre) {
     move_obstacle(*each, *find_added(*each, "ball"), ball_at("", {0.5, 0.002, -0.1}).pose, 0.3);
     run(*each, 20);
   }
-  EXPECT_EQ(points_of(scene), points_of(expected));
+  EXPECT_EQ(nodes_of(scene), nodes_of(expected));
   EXPECT_NEAR(scene.stepper->energy(), expected.stepper->energy(), 1e-12);
   const RodForces forces = scene.stepper->forces();
   ASSERT_EQ(forces.obstacles.size(), 2U);
@@ -140,7 +140,7 @@ TEST_F(AddedObstacles, AreThereInCopies) {
   // What becomes of the scene does not concern the copy.
   move_obstacle(scene, *find_added(scene, "ball"), ball_at("", {0.5, 0.0, -0.5}).pose, 0.1);
   run(copy, 10);
-  EXPECT_EQ(points_of(copy), points_of(scene));
+  EXPECT_EQ(nodes_of(copy), nodes_of(scene));
   ASSERT_EQ(copy.objects().size(), 3U);
   EXPECT_EQ(copy.objects()[2].shapes.size(), 2U) << "it came again, behind the other one";
   remove_obstacle(scene, *find_added(scene, "ball"));
