@@ -123,7 +123,7 @@ void RunTreeEngine::begin_to_serve(const FiberAssembly& fibers) {
 bool RunTreeEngine::tree_still_serves(const FiberAssembly& fibers) {
   moved_ = motion_.measure(fibers);
   // Two segments may have come towards each other.
-  const bool serves = 2.0 * moved_ <= skin_.skin() && !skin_.lasts_too_long();
+  const bool serves = 2.0 * moved_ <= skin_.skin() && !skin_.is_over();
   if (serves) {
     skin_.go_on();
   }
@@ -133,7 +133,7 @@ bool RunTreeEngine::tree_still_serves(const FiberAssembly& fibers) {
 /// With a tree that has been fitted: if few fibres have moved far, measures their motion from here,
 /// and has only their candidates looked for anew.
 bool RunTreeEngine::most_still_serve(const FiberAssembly& fibers) {
-  if (skin_.lasts_too_long() || skin_.skin() == 0.0) {
+  if (skin_.is_over() || skin_.skin() == 0.0) {
     return false;
   }
   if (cache_.state() != CandidateCache::State::STALE) {

@@ -54,13 +54,14 @@ void SkinChoice::start() {
     lasted_ = 1.0;
   }
   pays_ = skin_ > 0.0;
+  are_too_many_ = false;
 }
 
 void SkinChoice::begin_stretch(const FiberAssembly& fibers, const std::vector<double>* moved) {
   if (!is_automatic_) {
     pays_ = skin_ > 0.0 && frames_ > 1;
-  } else if (is_due_) {
-    do_without();  // nobody has asked for what could be kept
+  } else if (is_due_ || are_too_many_) {
+    do_without();  // nobody has asked for what could be kept, or it could not be
   } else if (moved == nullptr) {
     wait_ -= std::min(wait_, 1U);
   } else {
@@ -74,6 +75,7 @@ void SkinChoice::begin_stretch(const FiberAssembly& fibers, const std::vector<do
     pays_ = false;
     is_due_ = true;
   }
+  are_too_many_ = false;
   frames_ = 0;
 }
 
@@ -117,13 +119,6 @@ void SkinChoice::decide(const FiberAssembly& fibers, const Estimate& estimate) {
   last_frames_ = best;
   skin_ = skin_of(best);
   pays_ = true;
-}
-
-void SkinChoice::give_up() {
-  const std::lock_guard lock(mutex_);
-  if (is_automatic_) {
-    do_without();
-  }
 }
 
 /// [ns] a frame, of a skin that is meant to last for so many; 0: without one.

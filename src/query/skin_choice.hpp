@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -42,7 +43,7 @@ class SkinChoice {
   double skin() const { return skin_; }
 
   /// Whether pairs are kept. A fixed skin may be too short for that to pay.
-  bool keeps_pairs() const { return pays_; }
+  bool keeps_pairs() const { return pays_ && !are_too_many_; }
 
   /// More than so many pairs are not kept: those estimated were far fewer.
   std::uint64_t most_pairs() const { return most_pairs_; }
@@ -50,8 +51,11 @@ class SkinChoice {
   /// Whether the next update is to know how far points have moved since this fit.
   bool asks_for_motion() const { return skin_ > 0.0 || is_due_ || (is_automatic_ && wait_ == 0); }
 
-  /// Whether motion has become so slow that a shorter skin would cost less.
-  bool lasts_too_long() const { return frames_meant_ > 0.0 && frames_ > 16.0 * frames_meant_; }
+  /// Whether the stretch is to end although the tree would serve: there were too many pairs, or
+  /// motion has become so slow that a shorter skin would cost less.
+  bool is_over() const {
+    return are_too_many_ || (frames_meant_ > 0.0 && frames_ > 16.0 * frames_meant_);
+  }
 
   /// Forgets: nothing is known of the fibres that come.
   void start();
@@ -70,8 +74,8 @@ class SkinChoice {
   /// same time.
   void decide(const FiberAssembly& fibers, const Estimate& estimate);
 
-  /// There are more than most_pairs(): this skin is none.
-  void give_up();
+  /// There are more than most_pairs(). Several threads may tell at the same time.
+  void give_up() { are_too_many_ = true; }
 
  private:
   double cost(double frames, const FiberAssembly& fibers, const SearchSize& search) const;
@@ -79,9 +83,10 @@ class SkinChoice {
   void do_without();
 
   const bool is_automatic_;
-  std::mutex mutex_;  // of decide() and give_up()
-  double skin_;       // [m]
-  bool pays_;         // pairs are kept
+  std::mutex mutex_;  // of decide()
+  std::atomic<bool> are_too_many_{false};
+  double skin_;  // [m]
+  bool pays_;    // pairs are kept
   std::uint64_t most_pairs_ = std::numeric_limits<std::uint64_t>::max();
   bool is_due_ = false;
   double motion_ = 0.0;     // [m] a frame
