@@ -91,7 +91,7 @@ std::string with_article(const AnswerSetting& setting) {
     case SettingKind::TOLERANCE:
     case SettingKind::DEADLINE:
     case SettingKind::SKIN:
-      return "a " + setting.name;
+      return setting.engine_options.skin == 0.0 ? setting.name : "a " + setting.name;
     case SettingKind::ENGINE:
       return "the " + setting.name;
     case SettingKind::RESAMPLING:
