@@ -72,26 +72,24 @@ EngineFacts RunTreeEngine::facts() const {
 void RunTreeEngine::do_update(const FiberAssembly& fibers, bool same_topology) {
   loops_.reset(fibers);
   arena_.execute([&] {
-    const auto tree_fibers = [&] { return TreeFibers(fibers, hierarchy_origin(fibers)); };
     if (!same_topology) {
-      tree_.build(tree_fibers());
+      tree_.build({fibers, hierarchy_origin(fibers)});
       forget(fibers);
-    } else if (tree_.moves()) {
-      tree_.update(tree_fibers());
+      return;
+    }
+    const bool is_followed = !tree_.moves();
+    skin_.end_frame();
+    const bool has_motion = is_followed && skin_.asks_for_motion();
+    if (has_motion && tree_still_serves(fibers)) {
+      return;
+    }
+    tree_.update({fibers, hierarchy_origin(fibers)});
+    if (!is_followed || (has_motion && !std::isfinite(moved_))) {
       forget(fibers);
-    } else {
-      skin_.end_frame();
-      if (!skin_.asks_for_motion()) {
-        tree_.update(tree_fibers());
-        start_anew(fibers, nullptr);
-      } else if (!tree_still_serves(fibers)) {
-        tree_.update(tree_fibers());
-        if (!std::isfinite(moved_)) {
-          forget(fibers);
-        } else if (!most_still_serve(fibers)) {
-          start_anew(fibers, &motion_.by_fiber());
-        }
-      }
+    } else if (!has_motion) {
+      start_anew(fibers, nullptr);
+    } else if (!most_still_serve(fibers)) {
+      start_anew(fibers, &motion_.by_fiber());
     }
   });
 }
@@ -241,8 +239,7 @@ bool RunTreeEngine::find_own(const FiberAssembly& fibers, const NarrowPhase& tes
   return is_found;
 }
 
-/// The same from candidates that are kept, or will be.
-/// @return false, with no answer, if there are too many
+/// The same from candidates that are kept, or will be; false if there are too many.
 bool RunTreeEngine::find_kept(const NarrowPhase& test, const QueryOptions& options,
                               const QueryLimits& limits, ContactBatch& batch,
                               QueryResult& result) const {

@@ -191,9 +191,8 @@ TEST_F(BadInputTest, ABadParameterIsAClearErrorAndExitCode2) {
   expect_exit("_threads:=-1", "parameter /refused/threads is -1, it must be a whole number of ");
   expect_exit("_threads:=100000", "threads is 100000, it must be at most 1024 (0 for as many as ");
   for (const std::string value : {"-0.001", "nan", "inf", "thin"}) {
-    expect_exit("_skin:=" + value,
-                "parameter /refused/skin is " + value +
-                    ", it must be automatic or a number of at least 0");
+    expect_exit("_skin:=" + value, "parameter /refused/skin is " + value +
+                                       ", it must be automatic or a number of at least 0");
   }
   expect_exit("_scene:=/none",
               "parameter /refused/scene: scene '/none': there is no such file to read");
