@@ -18,6 +18,12 @@ using Range = tbb::blocked_range<std::uint32_t>;
 
 }  // namespace
 
+void MotionBound::reserve(const FiberAssembly& fibers) {
+  points_.reserve(fibers.point_count());
+  radii_.reserve(fibers.radii().size());
+  by_fiber_.reserve(fibers.fiber_count());
+}
+
 void MotionBound::start(const FiberAssembly& fibers) {
   points_ = fibers.points();
   radii_ = fibers.radii();

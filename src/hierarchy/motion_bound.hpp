@@ -11,6 +11,9 @@ namespace fiber {
 /// Remembers where fibres were, to tell how far each has moved since.
 class MotionBound {
  public:
+  /// Makes room for start() and measure() of such fibres, whose memory nobody touches before.
+  void reserve(const FiberAssembly& fibers);
+
   /// From now on, motion is measured from here.
   void start(const FiberAssembly& fibers);
 

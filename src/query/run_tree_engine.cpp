@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <stdexcept>
 #include <string>
 
@@ -104,6 +105,7 @@ void RunTreeEngine::start_anew(const FiberAssembly& fibers, const std::vector<do
 /// The same for fibres of which nothing is known from the frames before.
 void RunTreeEngine::forget(const FiberAssembly& fibers) {
   skin_.start();
+  motion_.reserve(fibers);
   begin_to_serve(fibers);
 }
 
@@ -228,9 +230,10 @@ bool RunTreeEngine::find_own(const FiberAssembly& fibers, const NarrowPhase& tes
   with_batch([&](ContactBatch& batch) {
     // Which pairs a length leaves out changes as fibres stretch: such candidates cannot be kept.
     if (options.neighbour_skip_length.value_or(0.0) == 0.0) {
-      skin_.decide(fibers, [&](double skin) {
+      const auto estimate = [&](double skin) {
         return batch.estimate(tree_.view(), test, options.margin + skin, skin == 0.0);
-      });
+      };
+      skin_.decide(fibers, std::cref(estimate));  // which allocates nothing
       is_found = skin_.keeps_pairs() && find_kept(test, options, limits, batch, result);
     }
     is_found = is_found || batch.find(tree_.view(), tree_.view(), test, 2.0 * moved_since_fit(),

@@ -47,6 +47,7 @@ SkinChoice::SkinChoice(const std::optional<double>& fixed)
 void SkinChoice::start() {
   frames_ = 0;
   if (is_automatic_) {
+    sample_.reserve(most_sampled + 1);
     do_without();
     wait_ = 1;
     next_wait_ = 2;
