@@ -18,10 +18,10 @@ using Range = tbb::blocked_range<std::uint32_t>;
 
 }  // namespace
 
-void MotionBound::reserve(const FiberAssembly& fibers) {
-  points_.reserve(fibers.point_count());
-  radii_.reserve(fibers.radii().size());
-  by_fiber_.reserve(fibers.fiber_count());
+void MotionBound::reserve(std::size_t points, std::size_t fibers) {
+  points_.reserve(points);
+  radii_.reserve(fibers);
+  by_fiber_.reserve(fibers);
 }
 
 void MotionBound::start(const FiberAssembly& fibers) {

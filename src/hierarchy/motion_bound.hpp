@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -11,8 +12,8 @@ namespace fiber {
 /// Remembers where fibres were, to tell how far each has moved since.
 class MotionBound {
  public:
-  /// Makes room for start() and measure() of such fibres, whose memory nobody touches before.
-  void reserve(const FiberAssembly& fibers);
+  /// Makes room for so many, which nobody touches before start().
+  void reserve(std::size_t points, std::size_t fibers);
 
   /// From now on, motion is measured from here.
   void start(const FiberAssembly& fibers);

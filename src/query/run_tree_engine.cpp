@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <stdexcept>
 #include <string>
 
@@ -105,7 +104,7 @@ void RunTreeEngine::start_anew(const FiberAssembly& fibers, const std::vector<do
 /// The same for fibres of which nothing is known from the frames before.
 void RunTreeEngine::forget(const FiberAssembly& fibers) {
   skin_.start();
-  motion_.reserve(fibers);
+  motion_.reserve(skin_.may_be_one() ? fibers.point_count() : 0, fibers.fiber_count());
   begin_to_serve(fibers);
 }
 

@@ -42,6 +42,9 @@ class SkinChoice {
   /// exceeds it.
   double skin() const { return skin_; }
 
+  /// Whether there can ever be one.
+  bool may_be_one() const { return is_automatic_ || skin_ > 0.0; }
+
   /// Whether pairs are kept. A fixed skin may be too short for that to pay.
   bool keeps_pairs() const { return pays_ && !are_too_many_; }
 
