@@ -104,7 +104,8 @@ void RunTreeEngine::start_anew(const FiberAssembly& fibers, const std::vector<do
 /// The same for fibres of which nothing is known from the frames before.
 void RunTreeEngine::forget(const FiberAssembly& fibers) {
   skin_.start();
-  motion_.reserve(skin_.may_be_one() ? fibers.point_count() : 0, fibers.fiber_count());
+  motion_.reserve(skin_.may_be_one() ? fibers.point_count() : 0,
+                  std::max(fibers.fiber_count(), fibers.radii().size()));
   begin_to_serve(fibers);
 }
 
@@ -249,9 +250,7 @@ bool RunTreeEngine::find_kept(const NarrowPhase& test, const QueryOptions& optio
   kept.pairs = std::min(limits.pairs, skin_.most_pairs());
   const Candidates candidates = current_candidates(test, options, kept, batch, result.counts);
   if (candidates.found == ContactBatch::Found::TOO_MANY) {
-    if (kept.pairs < limits.pairs) {
-      skin_.give_up();
-    }
+    skin_.give_up();
     return false;
   }
   batch.evaluate(*candidates.keys, candidates.found == ContactBatch::Found::ALL, test, limits,

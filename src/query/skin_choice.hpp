@@ -77,7 +77,7 @@ class SkinChoice {
   /// same time.
   void decide(const FiberAssembly& fibers, const Estimate& estimate);
 
-  /// There are more than most_pairs(). Several threads may tell at the same time.
+  /// There are more than can be kept. Several threads may tell at the same time.
   void give_up() { are_too_many_ = true; }
 
  private:

@@ -84,7 +84,7 @@ class CoherenceTest(BenchTestCase):
             return measure_all(str(self.tool), [one], Limits(stage=limit_s), self.folder)
 
     def test_a_scene_over_the_limit_ends_everything(self):
-        with self.assertRaisesRegex(SystemExit, "stuck ×1, 2 thread.*not done within 0.6 s"):
+        with self.assertRaisesRegex(SystemExit, "stuck ×1, 2 thread.*not done within 0.9 s"):
             self.measure("stuck", 0.1)
 
     def test_answers_that_differ_end_everything(self):
