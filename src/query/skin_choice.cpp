@@ -8,13 +8,14 @@
 namespace fiber {
 namespace {
 
-// [ns] What one takes on one thread: least squares over `fiber_bench coherence --json` on six
-// scenes with five skins (Intel Xeon, 2026-11-28).
+// [ns] What one takes on one thread: least squares over `fiber_bench coherence --json` on eight
+// scenes with five skins. Pairs took 160 to 230 to be found, and 25 to 100 to be judged, the more
+// the less a scene fits into the caches (AMD EPYC, 2026-11-28).
 constexpr double fit_ns = 11.0;    // a segment
 constexpr double motion_ns = 3.6;  // a point
 constexpr double test_ns = 6.6;    // a node's children
-constexpr double find_ns = 160.0;  // a pair that a search comes upon, its sorting included
-constexpr double judge_ns = 30.0;  // a pair
+constexpr double find_ns = 200.0;  // a pair that a search comes upon, its sorting included
+constexpr double judge_ns = 70.0;  // a pair
 
 constexpr double first_frames = 4.0;  // that the first skin thought of lasts for
 constexpr double least_frames = 2.0;
@@ -102,14 +103,14 @@ void SkinChoice::decide(const FiberAssembly& fibers, const Estimate& estimate) {
     most_pairs_ = static_cast<std::uint64_t>(4.0 * search.pairs) + (1U << 16U);
     return true;
   };
+  // Up from the last one while that is better; or else down, until it is worse again.
   const double begin = last_frames_;
-  is_better(begin);
-  double frames = begin * step;
+  double frames = begin;
   while (frames <= most_frames && is_better(frames)) {
     frames *= step;
   }
   frames = begin / step;
-  while (best <= begin && frames >= least_frames && is_better(frames)) {
+  while (best <= begin && frames >= least_frames && (is_better(frames) || best == 0.0)) {
     frames /= step;
   }
   if (best == 0.0) {
