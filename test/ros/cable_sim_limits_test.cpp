@@ -188,8 +188,8 @@ TEST_F(CableSimLimitsTest, ALongStepBlocksNothing) {
 TEST_F(CableSimLimitsTest, AHandleDoesNotTearTheFibre) {
   using visualization_msgs::InteractiveMarkerFeedback;
   const node_test::Recorder<rosgraph_msgs::Log> logs{node, "/rosout"};
-  const auto publisher =
-      node.advertise<InteractiveMarkerFeedback>("/cable_sim/interactive_markers/feedback", 10);
+  const auto publisher = node_test::advertise<InteractiveMarkerFeedback>(
+      node, "/cable_sim/interactive_markers/feedback");
   ASSERT_TRUE(node_test::wait_for([&] { return publisher.getNumSubscribers() > 0; }));
   InteractiveMarkerFeedback feedback;
   feedback.header.frame_id = "world";

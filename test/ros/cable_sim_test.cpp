@@ -127,8 +127,8 @@ TEST_F(CableSimTest, AnEndIsDraggedByItsHandle) {
   using visualization_msgs::InteractiveMarkerFeedback;
   const node_test::Recorder<visualization_msgs::InteractiveMarkerInit> handles{
       node, "/cable_sim/interactive_markers/update_full"};
-  const auto publisher =
-      node.advertise<InteractiveMarkerFeedback>("/cable_sim/interactive_markers/feedback", 10);
+  const auto publisher = node_test::advertise<InteractiveMarkerFeedback>(
+      node, "/cable_sim/interactive_markers/feedback");
   ASSERT_TRUE(node_test::wait_for([&] { return publisher.getNumSubscribers() > 0; }));
   const auto* init = handles.wait_for([](const auto& message) { return !message.markers.empty(); });
   ASSERT_NE(init, nullptr);

@@ -43,7 +43,7 @@ class EnvironmentFixture : public ::testing::Test {
 
   template <class Message>
   ros::Publisher advertise(const std::string& topic) {
-    const ros::Publisher publisher = own.advertise<Message>(topic, 1000);
+    const ros::Publisher publisher = node_test::advertise<Message>(own, topic);
     EXPECT_TRUE(node_test::wait_for([&] { return publisher.getNumSubscribers() > 0; }));
     return publisher;
   }

@@ -69,6 +69,20 @@ bool call_service_alone(const std::string& name, Service& service) {
   return ros::service::createClient<Service>(name, true).call(service);
 }
 
+/// Advertises a topic, which stays advertised for all tests of a program: on a busy machine the
+/// master tells subscribers late that a topic is gone, and they drop the next publisher's
+/// connection with what is sent over it.
+template <class Message>
+ros::Publisher advertise(ros::NodeHandle& node, const std::string& topic) {
+  // Never taken apart: ROS has ended by then.
+  static auto& publishers = *new std::map<std::string, ros::Publisher>;
+  ros::Publisher& known = publishers[node.resolveName(topic)];
+  if (!known) {
+    known = node.advertise<Message>(topic, 1000);
+  }
+  return known;
+}
+
 /// Keeps all messages of a topic.
 template <class Message>
 class Recorder {
@@ -116,7 +130,7 @@ class NodeTest : public ::testing::Test {
  protected:
   template <class Message>
   ros::Publisher advertise(const std::string& topic) {
-    const ros::Publisher publisher = node.advertise<Message>(topic, 1000);
+    const ros::Publisher publisher = node_test::advertise<Message>(node, topic);
     EXPECT_TRUE(wait_for([&] { return publisher.getNumSubscribers() > 0; }))
         << "nobody listens to " << topic;
     return publisher;

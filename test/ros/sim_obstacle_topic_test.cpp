@@ -55,7 +55,7 @@ class SimTopicTest : public OwnSceneTest {
     std::vector<std::string> arguments = command();
     arguments.emplace_back("obstacles:=own_obstacles");
     own_sim = std::make_unique<node_test::RunningNode>(arguments, folder_.path("output.txt"));
-    publisher = node.advertise<fiber_proximity::ObstacleArray>("/own_obstacles", 10);
+    publisher = node_test::advertise<fiber_proximity::ObstacleArray>(node, "/own_obstacles");
     ASSERT_TRUE(node_test::wait_for([this] {
       return publisher.getNumSubscribers() > 0 && !obstacles.messages.empty() &&
              !fibers.messages.empty();
