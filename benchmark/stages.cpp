@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <iostream>
+#include <limits>
 #include <memory>
 
 #include "benchmark/commands.hpp"
@@ -22,6 +23,7 @@ struct StagesRequest {
   std::uint32_t trials = 1000;
   double seconds = 10.0;
   std::string until = "detect";
+  std::uint32_t threads = 0;
   bool levels = false;
   bool no_leaf_pretest = false;
 };
@@ -46,7 +48,7 @@ class Stages {
       : request_(request),
         scene_(measured_scene(request.scene, request.scene_options)),
         fibers_(scene_(0)),
-        engine_(make_engine(request.engine, {0, 0.0})) {
+        engine_(make_engine(request.engine, {request.threads, 0.0})) {
     set_leaf_pretest(*engine_, !request.no_leaf_pretest);
     print("build", {{"build_ms", time_of([this] { engine_->update(fibers_); })}});
   }
@@ -97,6 +99,25 @@ class Stages {
                      {"primitive_tests", result_.counts.primitive_tests}});
   }
 
+  /// Queries whose bound shrinks with what they find.
+  void closest() {
+    options_.margin = std::numeric_limits<double>::infinity();
+    for (const auto& [name, type] : {std::make_pair("closest", QueryType::CLOSEST),
+                                     std::make_pair("limited", QueryType::LIMITED),
+                                     std::make_pair("fiber_pairs", QueryType::FIBER_PAIRS)}) {
+      options_.type = type;
+      if (type == QueryType::FIBER_PAIRS) {
+        options_.margin = 0.0;
+      }
+      const std::vector<double> times = query(request_.repeats);
+      print(name, {{"query_ms", median(times)},
+                   {"repeats", times.size()},
+                   {"pairs", result_.contacts.size()},
+                   {"node_tests", result_.counts.node_tests},
+                   {"primitive_tests", result_.counts.primitive_tests}});
+    }
+  }
+
  private:
   std::vector<double> query(std::uint32_t repeats) {
     return times_of(repeats, request_.seconds,
@@ -111,6 +132,7 @@ class Stages {
                       {"seed", request_.scene_options.seed},
                       {"shuffle", request_.scene_options.shuffle},
                       {"engine", request_.engine},
+                      {"threads", engine_->facts().thread_count},
                       {"fibers", fibers_.fiber_count()},
                       {"segments", fibers_.segment_count()},
                       {"leaf_pretest", !request_.no_leaf_pretest}};
@@ -136,8 +158,11 @@ ExitCode run_stages(const StagesRequest& request) {
     return SUCCEEDED;
   }
   stages.first();
-  if (request.until == "detect") {
+  if (request.until != "first") {
     stages.detect();
+  }
+  if (request.until == "closest") {
+    stages.closest();
   }
   return SUCCEEDED;
 }
@@ -148,17 +173,19 @@ void add_stages_command(CLI::App& app, Command& command) {
   const auto request = std::make_shared<StagesRequest>();
   CLI::App* const stages = add_subcommand(
       app, command, "stages",
-      "one engine on one scene: build, update, first pair, all pairs; a JSON line as "
-      "soon as each is measured",
+      "one engine on one scene: build, update, first pair, all pairs, the closest ones; a JSON "
+      "line as soon as each is measured",
       request, run_stages);
   add_scene_options(*stages, request->scene, request->scene_options);
   add_value(*stages, "--engine", request->engine, "one of " + join(engine_names()));
   add_count(*stages, "--repeats", request->repeats, "of updates and of detections, at most");
   add_count(*stages, "--trials", request->trials, "of the first pair, at most");
+  add_count(*stages, "--threads", request->threads,
+            "most threads of the engine, 0 for as many as there are cores", 0);
   add_value(*stages, "--seconds", request->seconds, "after which no repeat or trial begins",
             CLI::Range(0.0, 1e5));
   add_value(*stages, "--until", request->until, "the last stage to measure",
-            CLI::IsMember({"update", "first", "detect"}));
+            CLI::IsMember({"update", "first", "detect", "closest"}));
   stages->add_flag("--levels", request->levels, "also the mean volume of the cages of each level");
   stages->add_flag("--no-leaf-pretest", request->no_leaf_pretest,
                    "test segments without testing their own cages first");

@@ -36,13 +36,18 @@ std::size_t capacity_of(const QueryOptions& options, const QueryLimits& limits) 
 }  // namespace
 
 const Contact* FiberPairMinima::find(std::uint32_t fiber_a, std::uint32_t fiber_b) {
-  if ((fiber_a != last_a_ || fiber_b != last_b_) && !contacts_.empty()) {
-    const std::uint32_t entry = slots_[slot_of(fiber_a, fiber_b)];
-    last_ = entry == 0 ? nullptr : &contacts_[entry - 1];
+  if (fiber_a != last_a_ || fiber_b != last_b_) {
+    last_ = look_up(fiber_a, fiber_b);
+    last_of_whole_ = whole_ != nullptr ? whole_->look_up(fiber_a, fiber_b) : nullptr;
+    last_a_ = fiber_a;
+    last_b_ = fiber_b;
   }
-  last_a_ = fiber_a;
-  last_b_ = fiber_b;
-  return last_;
+  return last_ != nullptr ? last_ : last_of_whole_;
+}
+
+Contact* FiberPairMinima::look_up(std::uint32_t fiber_a, std::uint32_t fiber_b) const {
+  const std::uint32_t entry = contacts_.empty() ? 0 : slots_[slot_of(fiber_a, fiber_b)];
+  return entry == 0 ? nullptr : &contacts_[entry - 1];
 }
 
 void FiberPairMinima::keep(const Contact& contact) {
@@ -85,8 +90,7 @@ void FiberPairMinima::grow() {
 
 void FiberPairMinima::contacts_have_moved() {
   fill_slots();
-  const std::uint32_t entry = slots_[slot_of(last_a_, last_b_)];
-  last_ = entry == 0 ? nullptr : &contacts_[entry - 1];
+  last_ = look_up(last_a_, last_b_);
 }
 
 void FiberPairMinima::fill_slots() {
@@ -98,6 +102,7 @@ void FiberPairMinima::fill_slots() {
 
 ContactAccumulator::ContactAccumulator(const QueryOptions& options, QueryResult& result)
     : limits_(options),
+      pairs_at_begin_(limits_.pairs),
       pairs_left_(limits_.pairs),
       minima_(result),
       options_(options),
@@ -107,6 +112,34 @@ ContactAccumulator::ContactAccumulator(const QueryOptions& options, QueryResult&
   result_.limit_reached = false;
   result_.others_lower = std::numeric_limits<double>::infinity();
   set_bound(options.margin);
+}
+
+ContactAccumulator::ContactAccumulator(const ContactAccumulator& whole, QueryResult& result)
+    : limits_(whole.limits_),
+      pairs_at_begin_(whole.pairs_left_),
+      pairs_left_(whole.pairs_left_),
+      minima_(whole.minima_, result),
+      options_(whole.options_),
+      result_(result),
+      capacity_(whole.capacity_) {
+  result_.contacts.clear();
+  result_.limit_reached = false;
+  result_.complete = true;
+  result_.others_lower = std::numeric_limits<double>::infinity();
+  result_.counts = {};
+  set_bound(whole.bound_);
+}
+
+void ContactAccumulator::absorb(const ContactAccumulator& part) {
+  assert(part.pairs_taken() <= pairs_left_ && !part.lacks_pairs_);
+  pairs_left_ -= part.pairs_taken();
+  result_.counts += part.result_.counts;
+  result_.limit_reached = result_.limit_reached || part.result_.limit_reached;
+  // What the part has not found is beyond its bound.
+  leave_out(std::min(part.result_.others_lower, part.bound_));
+  if (!part.result_.complete) {
+    end_early();
+  }
 }
 
 double ContactAccumulator::bound_of(std::uint32_t fiber_a, std::uint32_t fiber_b) {
@@ -198,6 +231,7 @@ void ContactAccumulator::end_early() {
 }
 
 void ContactAccumulator::reach_pair_limit() {
+  lacks_pairs_ = true;
   end_early();
   result_.limit_reached = true;
 }
@@ -230,7 +264,8 @@ std::uint32_t PairCollector::FiberFinder::fiber_of(std::uint32_t point) {
 PairCollector::PairCollector(const FiberAssembly& fibers, const QueryOptions& options,
                              QueryResult& result, const LoopTest* loops)
     : accumulator_(options, result),
-      test_(fibers, options, loops),
+      own_test_(std::in_place, fibers, options, loops),
+      test_(*own_test_),
       fibers_a_(fibers),
       fibers_b_(fibers),
       options_(options),
@@ -239,11 +274,29 @@ PairCollector::PairCollector(const FiberAssembly& fibers, const QueryOptions& op
 PairCollector::PairCollector(const FiberAssembly& shape, const FiberAssembly& fibers,
                              const QueryOptions& options, QueryResult& result)
     : accumulator_(options, result),
-      test_(shape, fibers, options),
+      own_test_(std::in_place, shape, fibers, options),
+      test_(*own_test_),
       fibers_a_(shape),
       fibers_b_(fibers),
       options_(options),
       counts_(result.counts) {}
+
+PairCollector::PairCollector(const PairCollector& whole, QueryResult& result)
+    : accumulator_(whole.accumulator_, result),
+      test_(whole.test_),
+      fibers_a_(whole.fibers_a_),
+      fibers_b_(whole.fibers_b_),
+      options_(whole.options_),
+      counts_(result.counts),
+      key_bound_(whole.key_bound_) {}
+
+void PairCollector::absorb(const PairCollector& part) {
+  for (const Contact& contact : part.accumulator_.contacts()) {
+    accumulator_.keep(contact);
+    look_at_depth();
+  }
+  accumulator_.absorb(part.accumulator_);
+}
 
 void PairCollector::offer(std::uint32_t point_a, std::uint32_t point_b) {
   if (!accumulator_.takes_pair()) {

@@ -7,7 +7,7 @@
 namespace fiber {
 
 /// Hands candidates to a collector one by one: for the queries whose bound shrinks.
-class CollectorSink final : public PairSink {
+class CollectorSink : public PairSink {
  public:
   /// @param moved [m] by how much pairs may be nearer than the trees have them
   CollectorSink(PairCollector& collector, double moved)

@@ -16,26 +16,14 @@ namespace fiber {
 namespace {
 
 /// Offers the pairs of two trees, or of one, that may come within the sink's bound.
-/// @param is_over     asked between groups
-/// @param checks_often otherwise once: where no candidates are, nobody else would look at a
+/// @param is_over asked between groups: where no candidates are, nobody else would look at a
 /// deadline
-template <class IsOver>
-void offer_all(const RunTreeView& a, const RunTreeView& b, PairSink& sink, bool checks_often,
-               const IsOver& is_over, QueryCounts& counts) {
+void offer_all(const RunTreeView& a, const RunTreeView& b, PairSink& sink,
+               const std::function<bool()>& is_over, QueryCounts& counts) {
   const std::uint32_t groups = b.group_count() == 0 ? 0 : a.group_count();
-  const std::uint32_t step = checks_often ? 1 : std::max(groups, 1U);
-  for (std::uint32_t group = 0; group < groups && !is_over(); group += step) {
-    find_near_segments(a, group, std::min(groups, group + step), b, sink, counts.node_tests,
-                       counts.node_overlaps);
+  for (std::uint32_t group = 0; group < groups && !is_over(); ++group) {
+    find_near_segments(a, group, group + 1, b, sink, counts.node_tests, counts.node_overlaps);
   }
-}
-
-void find_some(const RunTreeView& a, const RunTreeView& b, const QueryOptions& options,
-               double moved, PairCollector& collector, QueryCounts& counts) {
-  CollectorSink sink(collector, moved);
-  offer_all(
-      a, b, sink, options.deadline > 0.0, [&] { return collector.done_by_now(); }, counts);
-  collector.finish();
 }
 
 /// Points that move further than any engine allows are beyond the range of float.
@@ -181,7 +169,9 @@ void RunTreeEngine::do_query(const FiberAssembly& fibers, const QueryOptions& op
     left.deadline = limits.deadline.left();
   }
   PairCollector collector(fibers, left, result, &loops_);
-  find_some(tree_.view(), tree_.view(), left, 2.0 * moved_since_fit(), collector, result.counts);
+  searches_.lend([&](ShrinkingSearch& search) {
+    search.find(tree_.view(), tree_.view(), 2.0 * moved_since_fit(), arena_, collector, result);
+  });
 }
 
 void RunTreeEngine::do_query_shape(const FiberAssembly& shape, const FiberAssembly& fibers,
@@ -203,13 +193,15 @@ void RunTreeEngine::do_query_shape(const FiberAssembly& shape, const FiberAssemb
     left.deadline = limits.deadline.left();
   }
   PairCollector collector(shape, fibers, left, result);
-  find_some(shape_tree.view(), tree_.view(), left, moved_since_fit(), collector, result.counts);
+  searches_.lend([&](ShrinkingSearch& search) {
+    search.find(shape_tree.view(), tree_.view(), moved_since_fit(), arena_, collector, result);
+  });
 }
 
 void RunTreeEngine::offer_pairs(PairSink& sink, const std::function<bool()>& is_over,
                                 QueryCounts& counts) const {
   WideningSink wide(sink, 2.0 * moved_since_fit());
-  offer_all(tree_.view(), tree_.view(), wide, true, is_over, counts);
+  offer_all(tree_.view(), tree_.view(), wide, is_over, counts);
 }
 
 void RunTreeEngine::offer_pairs_with(const FiberAssembly& shape, PairSink& sink,
@@ -218,7 +210,7 @@ void RunTreeEngine::offer_pairs_with(const FiberAssembly& shape, PairSink& sink,
   RunTree shape_tree;
   shape_tree.build({shape, tree_.origin()});
   WideningSink wide(sink, moved_since_fit());
-  offer_all(shape_tree.view(), tree_.view(), wide, true, is_over, counts);
+  offer_all(shape_tree.view(), tree_.view(), wide, is_over, counts);
 }
 
 /// All contacts of the fibres with each other: from candidates that are kept, if there are such.

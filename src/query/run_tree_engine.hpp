@@ -10,6 +10,7 @@
 #include "src/query/candidate_cache.hpp"
 #include "src/query/contact_batch.hpp"
 #include "src/query/idle_memory.hpp"
+#include "src/query/shrinking_search.hpp"
 #include "src/query/skin_choice.hpp"
 
 namespace fiber {
@@ -92,6 +93,7 @@ class FIBER_PROXIMITY_EXPORT RunTreeEngine final : public ProximityEngine {
   DirtySegments dirty_;  // what makes the kept candidates STALE
   LoopTest loops_;
   mutable IdleMemory<ContactBatch> batches_;
+  mutable IdleMemory<ShrinkingSearch> searches_;
 };
 
 }  // namespace fiber

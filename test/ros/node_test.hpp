@@ -91,7 +91,15 @@ class Recorder {
 
   Recorder(ros::NodeHandle& node, const std::string& topic)
       : subscriber_(node.subscribe<Message>(
-            topic, 1000, [this](const Pointer& message) { messages.push_back(message); })) {}
+            topic, 1000, [this](const Pointer& message) { messages.push_back(message); })) {
+    // Connections stay for the recorders of later tests; never taken apart, as publishers.
+    static auto& connections = *new std::map<std::string, ros::Subscriber>;
+    ros::Subscriber& connection = connections[subscriber_.getTopic()];
+    if (!connection) {
+      const boost::function<void(const Pointer&)> nothing = [](const Pointer& /*message*/) {};
+      connection = node.subscribe<Message>(topic, 1000, nothing);
+    }
+  }
 
   const Message* find(const std::function<bool(const Message&)>& condition) const {
     for (const Pointer& message : messages) {

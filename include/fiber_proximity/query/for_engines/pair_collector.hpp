@@ -55,6 +55,11 @@ class FiberPairMinima {
  public:
   explicit FiberPairMinima(QueryResult& result)
       : contacts_(result.contacts), slots_(result.fiber_pair_slots) {}
+  /// For a part of a search: finds what the whole has kept, too, and keeps nothing there.
+  FiberPairMinima(const FiberPairMinima& whole, QueryResult& result)
+      : whole_(&whole), contacts_(result.contacts), slots_(result.fiber_pair_slots) {}
+  FiberPairMinima(const FiberPairMinima&) = delete;
+  FiberPairMinima& operator=(const FiberPairMinima&) = delete;
 
   /// The closest contact so far of these fibres, nullptr if there is none.
   const Contact* find(std::uint32_t fiber_a, std::uint32_t fiber_b);
@@ -67,15 +72,19 @@ class FiberPairMinima {
   void contacts_have_moved();
 
  private:
+  Contact* look_up(std::uint32_t fiber_a, std::uint32_t fiber_b) const;
   std::size_t slot_of(std::uint32_t fiber_a, std::uint32_t fiber_b) const;
   void grow();
   void fill_slots();
 
+  const FiberPairMinima* whole_ = nullptr;
   std::vector<Contact>& contacts_;
-  std::vector<std::uint32_t>& slots_;  // index of a contact + 1, 0 where free
-  Contact* last_ = nullptr;
-  std::uint32_t last_a_ = 0;  // fibres of the last look-up
-  std::uint32_t last_b_ = 0;
+  std::vector<std::uint32_t>& slots_;       // index of a contact + 1, 0 where free
+  Contact* last_ = nullptr;                 // of the last look-up
+  const Contact* last_of_whole_ = nullptr;  // the same
+  // Its fibres; none yet.
+  std::uint32_t last_a_ = std::numeric_limits<std::uint32_t>::max();
+  std::uint32_t last_b_ = std::numeric_limits<std::uint32_t>::max();
 };
 
 /// Keeps of the contacts it is given those the query asks for, and tells how close others must be
@@ -90,6 +99,23 @@ class ContactAccumulator {
  public:
   /// Holds references: options and result must outlive it. Forgets what is in the result.
   ContactAccumulator(const QueryOptions& options, QueryResult& result);
+
+  /// For a part of a search: begins with the bound and the limits that the whole has now. Holds a
+  /// reference: the whole stays as it is until the part is over.
+  ContactAccumulator(const ContactAccumulator& whole, QueryResult& result);
+  ContactAccumulator(const ContactAccumulator&) = delete;
+  ContactAccumulator& operator=(const ContactAccumulator&) = delete;
+
+  /// The pairs of this search, or of this part, that count against the limit of pairs.
+  std::uint64_t pairs_taken() const { return pairs_at_begin_ - pairs_left_; }
+  std::uint64_t pairs_left() const { return pairs_left_; }
+  bool lacks_pairs() const { return lacks_pairs_; }  ///< more came up than were left
+
+  /// Goes on from where a part is over that has taken no more pairs than are left. Its contacts are
+  /// kept apart from this, by keep().
+  void absorb(const ContactAccumulator& part);
+
+  const std::vector<Contact>& contacts() const { return result_.contacts; }
 
   /// [m] Pairs further apart than this do not matter any more.
   double bound() const { return bound_; }
@@ -168,7 +194,9 @@ class ContactAccumulator {
   static constexpr std::uint32_t steps_between_checks = 32;  // looking takes as long as a few steps
 
   const QueryLimits limits_;
+  const std::uint64_t pairs_at_begin_;
   std::uint64_t pairs_left_;
+  bool lacks_pairs_ = false;
   FiberPairMinima minima_;  // FIBER_PAIRS only
   const QueryOptions& options_;
   QueryResult& result_;
@@ -192,6 +220,25 @@ class PairCollector {
   /// Pairs of a shape and the fibres.
   PairCollector(const FiberAssembly& shape, const FiberAssembly& fibers,
                 const QueryOptions& options, QueryResult& result);
+
+  /// For a part of a search: collects into a result of its own, from the bounds that the whole has
+  /// now. Parts of a whole may be looked for at the same time; the whole stays as it is until they
+  /// are over.
+  PairCollector(const PairCollector& whole, QueryResult& result);
+  PairCollector(const PairCollector&) = delete;
+  PairCollector& operator=(const PairCollector&) = delete;
+
+  /// Goes on from where a part is over that has taken no more pairs than are left. What parts find,
+  /// absorbed one after the other, does not depend on who has looked for them.
+  void absorb(const PairCollector& part);
+
+  /// The pairs of this search, or of this part, that count against the limit of pairs.
+  std::uint64_t pairs_taken() const { return accumulator_.pairs_taken(); }
+  std::uint64_t pairs_left() const { return accumulator_.pairs_left(); }
+  bool lacks_pairs() const { return accumulator_.lacks_pairs(); }  ///< more came up than were left
+
+  /// Whether one contact is enough.
+  bool wants_any() const { return options_.type == QueryType::FIRST; }
 
   /// Considers the segments that start at these points: of the assembly in any order, or of the
   /// shape and of the fibres. Each pair may be offered once.
@@ -240,7 +287,8 @@ class PairCollector {
   void look_at_depth();
 
   ContactAccumulator accumulator_;  // first: its time begins, and the test takes time to make
-  const NarrowPhase test_;
+  const std::optional<NarrowPhase> own_test_;  // none in a part
+  const NarrowPhase& test_;
   FiberFinder fibers_a_;
   FiberFinder fibers_b_;
   const QueryOptions& options_;
