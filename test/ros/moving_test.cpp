@@ -177,7 +177,8 @@ class MovingTest : public node_test::SimulatedTimeTest {
   Way tool_;
   Way arm_;
   std::function<Vector3d(double)> cable_;
-  tf2_ros::TransformBroadcaster transforms_;
+  tf2_ros::TransformBroadcaster& transforms_ =
+      node_test::broadcaster<tf2_ros::TransformBroadcaster>();
   ros::Publisher cable_publisher_;
   node_test::Recorder<TimeToContact> times_{node, "/proximity/time_to_contact"};
 };

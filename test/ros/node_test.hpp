@@ -83,6 +83,13 @@ ros::Publisher advertise(ros::NodeHandle& node, const std::string& topic) {
   return known;
 }
 
+/// tf's broadcaster, which stays for all tests of a program as publishers do.
+template <class Broadcaster>
+Broadcaster& broadcaster() {
+  static auto& one = *new Broadcaster;
+  return one;
+}
+
 /// Keeps all messages of a topic.
 template <class Message>
 class Recorder {
@@ -91,15 +98,7 @@ class Recorder {
 
   Recorder(ros::NodeHandle& node, const std::string& topic)
       : subscriber_(node.subscribe<Message>(
-            topic, 1000, [this](const Pointer& message) { messages.push_back(message); })) {
-    // Connections stay for the recorders of later tests; never taken apart, as publishers.
-    static auto& connections = *new std::map<std::string, ros::Subscriber>;
-    ros::Subscriber& connection = connections[subscriber_.getTopic()];
-    if (!connection) {
-      const boost::function<void(const Pointer&)> nothing = [](const Pointer& /*message*/) {};
-      connection = node.subscribe<Message>(topic, 1000, nothing);
-    }
-  }
+            topic, 1000, [this](const Pointer& message) { messages.push_back(message); })) {}
 
   const Message* find(const std::function<bool(const Message&)>& condition) const {
     for (const Pointer& message : messages) {
@@ -136,6 +135,14 @@ class Recorder {
 /// Records what the node says, and logs.
 class NodeTest : public ::testing::Test {
  protected:
+  NodeTest() {
+    // What is logged is logged once: the connections to those who log stay for all tests.
+    static auto& connection = *new ros::Subscriber(node.subscribe<rosgraph_msgs::Log>(
+        "/rosout", 1000,
+        boost::function<void(const rosgraph_msgs::LogConstPtr&)>([](const auto& /*log*/) {})));
+    static_cast<void>(connection);
+  }
+
   template <class Message>
   ros::Publisher advertise(const std::string& topic) {
     const ros::Publisher publisher = node_test::advertise<Message>(node, topic);

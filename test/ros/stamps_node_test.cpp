@@ -97,7 +97,8 @@ TEST_F(StampsTest, AStampOfTheFutureIsRefusedAndNoAnswerHasIt) {
   for (const auto& answer : contacts.messages) {
     EXPECT_LE(answer->header.stamp, new_stamp());
   }
-  have_accepted(0.2);  // as the clocks of two machines may differ
+  const ros::Time accepted = have_accepted(0.2);  // as the clocks of two machines may differ
+  ros::Time::sleepUntil(accepted);                // answers have this stamp until then
 }
 
 TEST_F(StampsTest, AnOlderStampIsRefusedByNameUntilTheInputHasTimedOut) {

@@ -156,10 +156,11 @@ class UnknownTest : public FailingSources {
   /// Why the answers are not those of a node that lacks these sources and no others; empty if they
   /// are.
   std::string problem(const std::vector<const Source*>& lacking) const {
-    const auto verdicts = this->verdicts();
-    if (verdicts.size() < 6) {
-      return "too few answers";
+    if (contacts.messages.empty() || around_.messages.empty() || times_.messages.empty() ||
+        statistics.messages.empty()) {
+      return "not all outputs have been heard";
     }
+    const auto verdicts = this->verdicts();
     for (const auto& [output, answer] : verdicts) {
       const auto& [about, verdict] = answer;
       bool is_complete = true;

@@ -170,8 +170,10 @@ class FailingSources : public node_test::SimulatedTimeTest {
   }
 
   std::vector<Source> sources_;
-  tf2_ros::TransformBroadcaster transforms_;
-  tf2_ros::StaticTransformBroadcaster static_transforms_;
+  tf2_ros::TransformBroadcaster& transforms_ =
+      node_test::broadcaster<tf2_ros::TransformBroadcaster>();
+  tf2_ros::StaticTransformBroadcaster& static_transforms_ =
+      node_test::broadcaster<tf2_ros::StaticTransformBroadcaster>();
   ros::Publisher a_;
   ros::Publisher b_;
   ros::Publisher cloud_;
