@@ -9,6 +9,7 @@
 #include "fiber_proximity/ObstacleArray.h"
 #include "src/ros/sim/sim_server.hpp"
 #include "test/ros/cable_sim_fixture.hpp"
+#include "test/ros/messages.hpp"
 
 namespace {
 
@@ -177,15 +178,7 @@ class SimFramesTest : public CableSimTest {
   }
 
   void send(const Vector3d& gripper) {
-    geometry_msgs::TransformStamped transform;
-    transform.header.stamp = ros::Time::now();
-    transform.header.frame_id = "world";
-    transform.child_frame_id = "gripper";
-    transform.transform.translation.x = gripper.x();
-    transform.transform.translation.y = gripper.y();
-    transform.transform.translation.z = gripper.z();
-    transform.transform.rotation.w = 1.0;
-    broadcaster_.sendTransform(transform);
+    broadcaster_.sendTransform(test_messages::transform("gripper", gripper));
   }
 
   /// Where the fibre's first node is after a frame with the gripper there; none: without a word.

@@ -104,13 +104,7 @@ TEST_F(CrossingsCameraTest, AreSeenFromTheCamera) {
   EXPECT_NE(logs_of("no crossings: ")[0].find("'camera'"), std::string::npos);
   EXPECT_TRUE(crossings.messages.empty());
   tf2_ros::StaticTransformBroadcaster broadcaster;
-  geometry_msgs::TransformStamped camera;
-  camera.header = test_messages::header("world", ros::Time::now());
-  camera.child_frame_id = "camera";
-  camera.transform.translation.x = 0.5;
-  camera.transform.translation.z = -2.0;
-  camera.transform.rotation.w = 1.0;
-  broadcaster.sendTransform(camera);
+  broadcaster.sendTransform(test_messages::transform("camera", {0.5, 0.0, -2.0}));
   ASSERT_TRUE(node_test::wait_for([&] {
     fiber_proximity::FiberArray message = cross();
     message.header.stamp = new_stamp();

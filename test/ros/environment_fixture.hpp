@@ -72,12 +72,7 @@ class EnvironmentFixture : public ::testing::Test {
   }
 
   static geometry_msgs::TransformStamped transform(const std::string& frame, double x) {
-    geometry_msgs::TransformStamped transform;
-    transform.header = test_messages::header("world", ros::Time::now());
-    transform.child_frame_id = frame;
-    transform.transform.translation.x = x;
-    transform.transform.rotation.w = 1.0;
-    return transform;
+    return test_messages::transform(frame, {x, 0.0, 0.0});
   }
 
   /// A ball of 0.5 m, at this place along x.

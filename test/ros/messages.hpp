@@ -1,13 +1,14 @@
 #pragma once
 
 #include <geometry_msgs/PoseArray.h>
+#include <geometry_msgs/TransformStamped.h>
 #include <nav_msgs/Path.h>
 #include <sensor_msgs/PointCloud.h>
 #include <sensor_msgs/PointCloud2.h>
 #include <sensor_msgs/point_cloud2_iterator.h>
 #include <visualization_msgs/MarkerArray.h>
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,28 @@ inline std_msgs::Header header(const std::string& frame, const ros::Time& stamp 
   header.frame_id = frame;
   header.stamp = stamp;
   return header;
+}
+
+/// Where a frame is in that of the header.
+inline geometry_msgs::TransformStamped transform(const std_msgs::Header& header,
+                                                 const std::string& frame,
+                                                 const Eigen::Isometry3d& pose) {
+  const geometry_msgs::Pose placed = fiber_proximity_ros::to_message(pose);
+  geometry_msgs::TransformStamped transform;
+  transform.header = header;
+  transform.child_frame_id = frame;
+  transform.transform.translation.x = placed.position.x;
+  transform.transform.translation.y = placed.position.y;
+  transform.transform.translation.z = placed.position.z;
+  transform.transform.rotation = placed.orientation;
+  return transform;
+}
+
+/// The same of one that is not turned, now in the world.
+inline geometry_msgs::TransformStamped transform(const std::string& frame,
+                                                 const Eigen::Vector3d& position) {
+  return transform(header("world", ros::Time::now()), frame,
+                   Eigen::Isometry3d(Eigen::Translation3d(position)));
 }
 
 inline fiber_proximity::FiberArray fiber_array(const std_msgs::Header& header,

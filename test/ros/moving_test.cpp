@@ -58,19 +58,8 @@ class MovingTest : public node_test::SimulatedTimeTest {
     for (; sent_ < time() + ahead; sent_ += period) {
       for (const auto& [name, way] :
            {std::make_pair("tool", &tool_), std::make_pair("arm", &arm_)}) {
-        geometry_msgs::TransformStamped transform;
-        transform.header = test_messages::header("world", begin_ + ros::Duration(sent_));
-        transform.child_frame_id = name;
-        const Isometry3d pose = (*way)(sent_);
-        const Eigen::Quaterniond rotation(pose.linear());
-        transform.transform.translation.x = pose.translation().x();
-        transform.transform.translation.y = pose.translation().y();
-        transform.transform.translation.z = pose.translation().z();
-        transform.transform.rotation.w = rotation.w();
-        transform.transform.rotation.x = rotation.x();
-        transform.transform.rotation.y = rotation.y();
-        transform.transform.rotation.z = rotation.z();
-        transforms_.sendTransform(transform);
+        transforms_.sendTransform(test_messages::transform(
+            test_messages::header("world", begin_ + ros::Duration(sent_)), name, (*way)(sent_)));
       }
     }
   }

@@ -10,6 +10,7 @@
 #include "fiber_proximity/ForceArray.h"
 #include "fiber_proximity/ros/conversions.hpp"
 #include "test/ros/cable_sim_fixture.hpp"
+#include "test/ros/messages.hpp"
 
 namespace {
 
@@ -23,14 +24,10 @@ class SimForcesTest : public CableSimTest {
  protected:
   /// The gripper is turned by a quarter about x: its y is the world's z.
   void SetUp() override {
-    geometry_msgs::TransformStamped transform;
-    transform.header.stamp = ros::Time::now();
-    transform.header.frame_id = "world";
-    transform.child_frame_id = "gripper";
-    transform.transform.translation.x = -0.05;
-    transform.transform.translation.z = 0.9;
-    transform.transform.rotation.x = transform.transform.rotation.w = std::sqrt(0.5);
-    broadcaster_.sendTransform(transform);
+    broadcaster_.sendTransform(
+        test_messages::transform(test_messages::header("world", ros::Time::now()), "gripper",
+                                 Eigen::Translation3d(-0.05, 0.0, 0.9) *
+                                     Eigen::AngleAxisd(0.5 * M_PI, Eigen::Vector3d::UnitX())));
     ASSERT_TRUE(node_test::wait_for([&] {
       step(1);
       return !forces.messages.empty() && !wrenches.messages.empty() && !markers.messages.empty();

@@ -10,6 +10,7 @@
 #include "fiber_proximity/ObstacleArray.h"
 #include "fiber_proximity/Predict.h"
 #include "fiber_proximity/ros/conversions.hpp"
+#include "test/ros/messages.hpp"
 #include "test/ros/own_scene_fixture.hpp"
 
 namespace {
@@ -215,13 +216,7 @@ TEST_F(SimTopicTest, ABallComesPushesTheCableAndGoes) {
 
 TEST_F(SimTopicTest, ShapesAreAddedAndAllRemoved) {
   tf2_ros::StaticTransformBroadcaster broadcaster;
-  geometry_msgs::TransformStamped transform;
-  transform.header.stamp = ros::Time::now();
-  transform.header.frame_id = "world";
-  transform.child_frame_id = "table";
-  transform.transform.translation.z = 0.5;
-  transform.transform.rotation.w = 1.0;
-  broadcaster.sendTransform(transform);
+  broadcaster.sendTransform(test_messages::transform("table", {0.0, 0.0, 0.5}));
   Obstacle other = ball_message("other", Obstacle::APPEND, 0.0);
   other.header.frame_id = "table";
   ASSERT_TRUE(node_test::wait_for([&] {  // until tf has come

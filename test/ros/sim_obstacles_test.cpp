@@ -12,6 +12,7 @@
 #include "fiber_proximity/ObstacleArray.h"
 #include "fiber_proximity/ros/conversions.hpp"
 #include "test/ros/cable_sim_fixture.hpp"
+#include "test/ros/messages.hpp"
 #include "test/ros/own_scene_fixture.hpp"
 
 namespace {
@@ -30,16 +31,9 @@ const std::array<std::string, cables> posts{"finger", "post"};
 
 geometry_msgs::TransformStamped transform_to(const std::string& frame, const Vector3d& position,
                                              double angle) {
-  geometry_msgs::TransformStamped transform;
-  transform.header.stamp = ros::Time::now();
-  transform.header.frame_id = "world";
-  transform.child_frame_id = frame;
-  transform.transform.translation.x = position.x();
-  transform.transform.translation.y = position.y();
-  transform.transform.translation.z = position.z();
-  transform.transform.rotation.z = std::sin(0.5 * angle);
-  transform.transform.rotation.w = std::cos(0.5 * angle);
-  return transform;
+  return test_messages::transform(
+      test_messages::header("world", ros::Time::now()), frame,
+      Eigen::Translation3d(position) * Eigen::AngleAxisd(angle, Vector3d::UnitZ()));
 }
 
 /// What is true of one cable and its post after a frame.

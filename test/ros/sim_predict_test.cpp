@@ -8,6 +8,7 @@
 #include "fiber_proximity/Predict.h"
 #include "fiber_proximity/ros/conversions.hpp"
 #include "test/ros/cable_sim_fixture.hpp"
+#include "test/ros/messages.hpp"
 
 namespace {
 
@@ -25,13 +26,7 @@ geometry_msgs::Pose pose_at(const Vector3d& place) {
 class SimPredictTest : public CableSimTest {
  protected:
   void SetUp() override {
-    geometry_msgs::TransformStamped transform;
-    transform.header.stamp = ros::Time::now();
-    transform.header.frame_id = "world";
-    transform.child_frame_id = "gripper";
-    transform.transform.translation.z = 1.0;
-    transform.transform.rotation.w = 1.0;
-    broadcaster_.sendTransform(transform);
+    broadcaster_.sendTransform(test_messages::transform("gripper", {0.0, 0.0, 1.0}));
     reset();
     points_after(30);  // none of these is on its way any more
   }

@@ -96,14 +96,11 @@ class FailingSources : public node_test::SimulatedTimeTest {
     };
   }
 
-  geometry_msgs::TransformStamped transform(const std::string& parent, const std::string& child,
-                                            const ros::Time& stamp) {
-    geometry_msgs::TransformStamped transform;
-    transform.header = header(parent, stamp);
-    transform.child_frame_id = child;
-    transform.transform.translation.y = 5.0;
-    transform.transform.rotation.w = 1.0;
-    return transform;
+  static geometry_msgs::TransformStamped transform(const std::string& parent,
+                                                   const std::string& child,
+                                                   const ros::Time& stamp) {
+    return test_messages::transform(header(parent, stamp), child,
+                                    Eigen::Isometry3d(Eigen::Translation3d(0.0, 5.0, 0.0)));
   }
 
   void send_fibers(const ros::Publisher& publisher, double x, Fault fault) {
