@@ -120,7 +120,7 @@ TEST_F(SimulateTrajectory, TellsWhatComesOfIt) {
   expect_line("clearance: " + text_of(height.value) + " m of fibre 'lifted' and obstacle 'table', ",
               ", at " + text_of(height.time) + " s");
   const Extreme gap = least_gap(frames_, 0, 1);
-  expect_line("clearance: " + text_of(gap.value) + " m of fibre 'lifted' and fibre 'falling', ",
+  expect_line("clearance: " + text_of(gap.value) + " m of fibre 'lifted' and fibre 'falling_0', ",
               ", at " + text_of(gap.time) + " s");
   expect_line("clearance: all other", "further apart than 0.2 m");
 
