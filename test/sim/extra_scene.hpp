@@ -104,7 +104,8 @@ class ExtraScene {
   Eigen::Isometry3d table_at(double time) const { return at_place(time * table_velocity()); }
 
   /// Contacts of rods with each other and with the table, the half-space below where it is.
-  std::unique_ptr<Contacts> contacts(double stiffness, double friction) const {
+  /// @param begin where their time is 0 [s]
+  std::unique_ptr<Contacts> contacts(double stiffness, double friction, double begin = 0.0) const {
     std::vector<std::unique_ptr<ContactSource>> sources;
     FiberContact::Options fiber;
     fiber.stiffness = stiffness;
@@ -115,7 +116,8 @@ class ExtraScene {
     if (extra_ == Extra::LIFT) {
       motions = std::make_shared<ObstacleMotions>(
           std::vector<MovingObstacle>{
-              moving("table", HalfSpaceShape{}, [this](double time) { return table_at(time); })},
+              moving("table", HalfSpaceShape{},
+                     [this, begin](double time) { return table_at(begin + time); })},
           0);
       sources.push_back(std::make_unique<MovingObstacleContact>(motions, obstacle));
     } else {

@@ -58,8 +58,8 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Shipped{"capstan", 2.0, false, true}, Shipped{"close_cable", 4.5, false, true},
                     Shipped{"demo", 3.0, true, true}, Shipped{"hanging_cable", 2.0, false, false},
                     Shipped{"harness", 3.5, false, true}, Shipped{"hose", 2.0, false, true},
-                    Shipped{"joined", 2.0, false, false}, Shipped{"knot", 3.5, true, false},
-                    Shipped{"pile", 3.0, true, true}, Shipped{"push_rope", 3.0, false, true},
+                    Shipped{"joined", 2.0, true, false}, Shipped{"knot", 3.5, true, false},
+                    Shipped{"pile", 3.0, true, true}, Shipped{"push_rope", 3.0, false, false},
                     Shipped{"rubber_band", 5.0, false, true}, Shipped{"wind", 2.0, false, false}),
     [](const auto& scene) { return std::string(scene.param.name); });
 
