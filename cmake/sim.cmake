@@ -71,6 +71,8 @@ add_library(sim_scene OBJECT
   src/sim/scene/obstacle_motion.cpp
   src/sim/scene/obstacles.cpp
   src/sim/scene/prediction.cpp
+  src/sim/scene/prediction_observer.cpp
+  src/sim/scene/prediction_summary.cpp
   src/sim/scene/reach.cpp
   src/sim/scene/real_time.cpp
   src/sim/scene/report.cpp

@@ -66,15 +66,23 @@ void measure_effects(const EffectScene& scene,
   };
   add("base", base);
   add("inextensible", {"gravity", "inextensible", "bend"});
-  for (const char* added : {"twist", "damping", "drag", "plasticity", "attachment", "self_contact",
-                            "fiber_contact", "environment_contact"}) {
+  for (const char* added :
+       {"twist", "damping", "drag", "plasticity", "attachment", "load", "sections", "ball", "weld",
+        "self_contact", "fiber_contact", "environment_contact"}) {
     Names names = base;
     names.emplace_back(added);
     add(added, names);
   }
-  Names with_friction = base;
-  with_friction.insert(with_friction.end(), {"environment_contact", "friction"});
-  add("friction", with_friction);
+  Names on_table = base;
+  on_table.emplace_back("environment_contact");
+  for (const char* added : {"restitution", "motion", "friction"}) {
+    Names names = on_table;
+    names.emplace_back(added);
+    add(added, names);
+  }
+  Names rolling = on_table;
+  rolling.insert(rolling.end(), {"friction", "twist"});
+  add("rolling", rolling);
   add("all", {"gravity", "stretch", "bend", "twist", "damping", "drag", "plasticity", "attachment",
               "self_contact", "fiber_contact", "environment_contact", "friction"});
   measure_times(scene, costs);

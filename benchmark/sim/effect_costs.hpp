@@ -20,7 +20,8 @@ struct EffectCost {
 };
 
 /// With gravity, stretch and bend, and with each effect added to these alone; with all of them.
-/// Inextensible takes the place of stretch, and friction comes with environment_contact.
+/// Inextensible takes the place of stretch; restitution, motion and friction come with
+/// environment_contact; what rolls has friction and twist.
 void measure_effects(const EffectScene& scene,
                      const std::function<void(const EffectCost&)>& report);
 

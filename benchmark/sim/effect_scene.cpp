@@ -4,6 +4,9 @@
 #include <cmath>
 
 #include "fiber_proximity/sim/effects.hpp"
+#include "fiber_proximity/sim/joints.hpp"
+#include "fiber_proximity/sim/loads.hpp"
+#include "fiber_proximity/sim/moving_obstacles.hpp"
 #include "validation/sim/contact_scenes.hpp"
 
 namespace fiber {
@@ -13,7 +16,8 @@ using Eigen::Vector3d;
 namespace {
 
 /// Two layers, the upper one across the lower one, a little above the table and each other.
-Rods make_cables(const EffectScene& scene) {
+/// @param parts that each cable is made of, all with the same number of segments
+Rods make_cables(const EffectScene& scene, std::uint32_t parts) {
   constexpr double radius = 0.004;
   constexpr double length = 1.0;
   constexpr double distance = 0.03;
@@ -32,9 +36,41 @@ Rods make_cables(const EffectScene& scene) {
       points.push_back(is_upper ? Vector3d(across, along, height)
                                 : Vector3d(along, across, height));
     }
-    rods.add(points, radius, section);
+    const std::size_t segments = scene.segments / parts;
+    for (std::size_t part = 0; part < parts; ++part) {
+      const auto first = points.begin() + static_cast<std::ptrdiff_t>(part * segments);
+      rods.add({first, first + static_cast<std::ptrdiff_t>(segments) + 1}, radius, section);
+    }
   }
   return rods;
+}
+
+/// An obstacle of this shape that rises.
+std::vector<MovingObstacle> rising(const Shape& shape) {
+  MovingObstacle obstacle;
+  obstacle.object.name = "table";
+  obstacle.object.shapes.push_back({shape, Eigen::Isometry3d::Identity()});
+  obstacle.placement = [](double time) {
+    return Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, 0.05 * time));
+  };
+  return {obstacle};
+}
+
+/// A part of each cable is stiffer and heavier.
+void add_sections(Rods& rods) {
+  const RodSection section = solid_round_section(material_preset("power_cable"), 0.005);
+  for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
+    rods.set_sections(rod, {{{0.4, 0.8}, section}});
+  }
+}
+
+/// Joins every second rod with the one before it, whose end is its beginning.
+std::unique_ptr<Joints> join_halves(Rods& rods, Joints::Kind kind) {
+  auto joints = std::make_unique<Joints>(Joints::Options{});
+  for (std::uint32_t rod = 0; rod < rods.count(); rod += 2) {
+    joints->add(rods, {kind, {{rod, rods.node_count(rod) - 1}, {rod + 1, 0}}});
+  }
+  return joints;
 }
 
 }  // namespace
@@ -42,11 +78,20 @@ Rods make_cables(const EffectScene& scene) {
 EffectSimulation::EffectSimulation(const EffectScene& scene,
                                    const std::vector<std::string>& effects)
     : names_(effects), substeps_(scene.substeps) {
-  Rods rods = make_cables(scene);
+  const bool is_joined = has("ball") || has("weld");
+  Rods rods = make_cables(scene, is_joined ? 2 : 1);
+  if (has("sections")) {
+    add_sections(rods);
+  }
   Effects made = make_effects(rods);
+  std::unique_ptr<Joints> joints;
+  if (is_joined) {
+    joints = join_halves(rods, has("ball") ? Joints::Kind::BALL : Joints::Kind::WELD);
+  }
   StepperOptions options;
   options.threads = scene.threads;
-  stepper_ = std::make_unique<Stepper>(std::move(rods), std::move(made), options, make_contacts());
+  stepper_ = std::make_unique<Stepper>(std::move(rods), std::move(made), options, make_contacts(),
+                                       std::move(joints));
 }
 
 void EffectSimulation::run(std::uint32_t frames) {
@@ -87,6 +132,22 @@ Effects EffectSimulation::make_effects(Rods& rods) const {
     }
     return hold(rods, holds);
   });
+  add("load", [&] {
+    auto loads = std::make_unique<Loads>();
+    for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
+      Loads::Load weight;
+      weight.rod = rod;
+      weight.node = rods.node_count(rod) - 1;
+      weight.mass = 0.01;
+      loads->add(rods, weight);
+      Loads::Load force;
+      force.rod = rod;
+      force.part = RodPart{0.2, 0.6};
+      force.force = TimeTable<Vector3d>(Vector3d(0.1, 0.1, 0.0));
+      loads->add(rods, force);
+    }
+    return loads;
+  });
   return effects;
 }
 
@@ -99,16 +160,24 @@ std::unique_ptr<Contacts> EffectSimulation::make_contacts() const {
   };
   add_fibers("self_contact", Pairing::SAME_FIBER);
   add_fibers("fiber_contact", Pairing::DIFFERENT_FIBERS);
+  std::shared_ptr<ObstacleMotions> motions;
   if (has("environment_contact")) {
-    const auto table = environment_of(HalfSpaceShape{Vector3d::UnitZ(), 0.0});
-    sources.push_back(std::make_unique<EnvironmentContact>(table, EnvironmentContact::Options{}));
+    const HalfSpaceShape table{Vector3d::UnitZ(), 0.0};
+    EnvironmentContact::Options options;
+    options.restitution = has("restitution") ? 0.7 : options.restitution;
+    if (has("motion")) {
+      motions = std::make_shared<ObstacleMotions>(rising(table), 0);
+      sources.push_back(std::make_unique<MovingObstacleContact>(motions, options));
+    } else {
+      sources.push_back(std::make_unique<EnvironmentContact>(environment_of(table), options));
+    }
   }
   if (sources.empty()) {
     return nullptr;
   }
   return std::make_unique<Contacts>(
       std::move(sources),
-      has("friction") ? std::make_unique<Friction>(Friction::Options{}) : nullptr);
+      has("friction") ? std::make_unique<Friction>(Friction::Options{}) : nullptr, motions);
 }
 
 }  // namespace fiber

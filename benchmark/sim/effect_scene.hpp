@@ -18,7 +18,10 @@ struct EffectScene {
   std::uint32_t threads = 1;    ///< 0 for as many as there are cores
 };
 
-/// A simulation of it with the effects that are named as scene files name them.
+/// A simulation of it with what is named as scene files name it: effects; `ball` and `weld`, kinds
+/// of joints, for cables of two halves that are joined in the middle; and keys, `sections` for
+/// parts that are stiffer, `motion` for a table that rises, `restitution` for one that throws
+/// cables back.
 class EffectSimulation {
  public:
   EffectSimulation(const EffectScene& scene, const std::vector<std::string>& effects);

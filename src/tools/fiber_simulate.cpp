@@ -14,6 +14,7 @@
 #include "fiber_proximity/sim/scene/scene.hpp"
 #include "src/io/file_format.hpp"
 #include "src/sim/scene/force_file.hpp"
+#include "src/sim/scene/prediction_observer.hpp"
 #include "src/sim/scene/report.hpp"
 #include "src/text/quote.hpp"
 #include "src/tools/command_line.hpp"
@@ -28,8 +29,9 @@ struct Request {
   std::string scene;
   double seconds = 0.0;
   std::string out;
-  std::string forces;      // empty for none
-  std::string trajectory;  // empty for none
+  std::string forces;                          // empty for none
+  std::string trajectory;                      // empty for none
+  double margin = PredictionOptions{}.margin;  // [m] of what is told of a trajectory
   std::uint32_t threads = 0;
 };
 
@@ -213,6 +215,13 @@ ExitCode run(const Request& request) {
   Bar bar(progress);
   Warnings warnings(progress);
   Balance balance;
+  std::optional<PredictionObserver> observer;
+  if (!request.trajectory.empty()) {
+    PredictionOptions options;
+    options.margin = request.margin;
+    observer.emplace(scene, options);
+    observer->look();
+  }
   while (frame.frame < frames) {
     advance(scene);
     ++frame.frame;
@@ -220,6 +229,10 @@ ExitCode run(const Request& request) {
     writer.write(frame, scene.stepper->time());
     if (forces) {
       forces->write(frame.frame, rods, scene.stepper->forces());
+    }
+    if (observer) {
+      observer->count_unbalanced();
+      observer->look();
     }
     warnings.tell(scene);
     balance.look_at(scene);
@@ -232,6 +245,9 @@ ExitCode run(const Request& request) {
   progress.show("");
   warnings.sum_up(frames);
   balance.sum_up(scene, frames);
+  if (observer) {
+    std::cout << summary(observer->take(), scene, request.margin);
+  }
   return SUCCEEDED;
 }
 
@@ -248,9 +264,17 @@ void setup(CLI::App& app, Command& command) {
       ->required();
   app.add_option("--forces", request->forces,
                  "CSV file to write: what acts in the fibres and on them, frame by frame");
-  app.add_option("--trajectory", request->trajectory,
-                 "YAML file: a list of holds with their paths, as the effect attachment has them "
-                 "(docs/scene_keys.md), in place of the scene's at the same nodes");
+  CLI::Option* const trajectory = app.add_option(
+      "--trajectory", request->trajectory,
+      "YAML file: a list of holds with their paths, as the effect attachment has them "
+      "(docs/scene_keys.md), in place of the scene's at the same nodes; what comes of it is told "
+      "on "
+      "stdout: least distances, contacts and greatest forces, and when");
+  app.add_option("--margin", request->margin,
+                 "with --trajectory: least distances up to this are told [m]")
+      ->check(finite_number(0.0))
+      ->capture_default_str()
+      ->needs(trajectory);
   app.add_option("--threads", request->threads,
                  "most threads to use, 0: as many as there are cores; the frames are the same")
       ->capture_default_str();

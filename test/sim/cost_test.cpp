@@ -4,95 +4,19 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
-#include <cstdlib>
 #include <functional>
-#include <new>
-#include <ostream>
 
 #include "fiber_proximity/sim/effects.hpp"
-#include "fiber_proximity/sim/loads.hpp"
-#include "validation/sim/contact_scenes.hpp"
-
-namespace {
-std::atomic<std::size_t> allocations{0};
-std::atomic<std::size_t> bytes{0};
-}  // namespace
-
-// Counts every allocation of this process by new, which leaves out those of Eigen's own. GCC
-// inlines one half of the pair and then believes that new and free are mixed.
-#pragma GCC diagnostic ignored "-Wmismatched-new-delete"
-void* operator new(std::size_t size) {
-  ++allocations;
-  bytes += size;
-  if (void* memory = std::malloc(size)) {
-    return memory;
-  }
-  throw std::bad_alloc();
-}
-void* operator new(std::size_t size, std::align_val_t alignment) {
-  ++allocations;
-  bytes += size;
-  const auto step = static_cast<std::size_t>(alignment);
-  if (void* memory = std::aligned_alloc(step, (size + step - 1) / step * step)) {
-    return memory;
-  }
-  throw std::bad_alloc();
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t /*size*/) noexcept { std::free(memory); }
-void operator delete(void* memory, std::align_val_t /*alignment*/) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t /*size*/, std::align_val_t /*alignment*/) noexcept {
-  std::free(memory);
-}
+#include "test/sim/cost_scenes.hpp"
+#include "test/sim/counted_memory.hpp"
 
 namespace fiber::test {
 namespace {
 
 using Eigen::Vector3d;
 
-constexpr double step = 1.0 / 240.0;
-
-/// The requests to operator new.
-struct Memory {
-  std::size_t allocations = 0;
-  std::size_t bytes = 0;
-
-  bool operator==(const Memory& other) const {
-    return allocations == other.allocations && bytes == other.bytes;
-  }
-};
-
-std::ostream& operator<<(std::ostream& out, const Memory& memory) {
-  return out << memory.allocations << " allocations of " << memory.bytes << " bytes";
-}
-
-template <class Call>
-Memory memory_of(const Call& call) {
-  const Memory before{allocations, bytes};
-  call();
-  return {allocations - before.allocations, bytes - before.bytes};
-}
-
-/// Parallel rods, each at this distance above the one before.
-Rods stacked(int count, int segments, double distance) {
-  Rods rods;
-  for (int i = 0; i < count; ++i) {
-    const Vector3d start(0.0, 0.0, 0.1 + i * distance);
-    rods.add(straight(start, start + Vector3d(0.5, 0.1 * i, 0.0), segments), 0.005, rubber(0.005));
-  }
-  return rods;
-}
-
-StepperOptions one_thread() {
-  StepperOptions options;
-  options.threads = 1;
-  return options;
-}
-
-using MakeEffects = std::function<Effects(Rods& rods)>;
 using MakeContacts = std::function<std::unique_ptr<Contacts>()>;
 
-Effects base(Rods& /*rods*/) { return elastic(standard_gravity); }
 std::unique_ptr<Contacts> no_contacts() { return nullptr; }
 
 /// Makes a simulation and some steps of it.
@@ -103,43 +27,6 @@ void simulate(Rods rods, const MakeEffects& make_effects,
   for (int i = 0; i < 20; ++i) {
     stepper.step(step);
   }
-}
-
-/// Gravity, stretch and bend, and one effect more.
-template <class Make>
-MakeEffects base_and(const Make& make) {
-  return [make](Rods& rods) {
-    Effects effects = base(rods);
-    effects.push_back(make(rods));
-    return effects;
-  };
-}
-
-struct NamedEffect {
-  const char* name;
-  MakeEffects make;
-};
-
-std::vector<NamedEffect> effects_with_state() {
-  return {
-      {"twist", base_and([](Rods& rods) { return std::make_unique<Twist>(rods); })},
-      {"damping", base_and([](Rods&) { return std::make_unique<Damping>(0.01); })},
-      {"drag", base_and([](Rods&) { return std::make_unique<Drag>(Drag::Options{}); })},
-      {"plasticity", base_and([](Rods& rods) {
-         return std::make_unique<Plasticity>(rods, Plasticity::Options{});
-       })},
-      {"inextensible", base_and([](Rods& rods) { return std::make_unique<Inextensible>(rods); })},
-      {"attachment",
-       base_and([](Rods& rods) { return hold(rods, {pin(0, rods.positions.front())}); })},
-      {"load", base_and([](Rods& rods) {
-         auto loads = std::make_unique<Loads>();
-         Loads::Load load;
-         load.part = RodPart{0.1, 0.4};
-         load.force = TimeTable<Vector3d>({{0.0, {0.0, 0.0, 0.0}}, {1.0, {0.0, 0.1, 0.0}}}, true);
-         loads->add(rods, load);
-         return loads;
-       })},
-  };
 }
 
 MakeContacts contacts_of_everything() {
@@ -278,28 +165,6 @@ TEST(Cost, AnEffectIsCalledAsOftenWhateverElseIsThere) {
     EXPECT_EQ(calls->energy, alone.energy);
     EXPECT_EQ(calls->derivatives, alone.derivatives);
     EXPECT_EQ(calls->end_step, alone.end_step);
-  }
-}
-
-/// Allocations of twenty steps after twenty others.
-std::size_t allocations_in_steady_state(Rods rods, const MakeEffects& make_effects) {
-  Effects effects = make_effects(rods);
-  Stepper stepper(std::move(rods), std::move(effects), one_thread());
-  const auto run = [&] {
-    for (int i = 0; i < 20; ++i) {
-      stepper.step(step);
-    }
-  };
-  run();
-  return memory_of(run).allocations;
-}
-
-/// Memory for a step is that of the step before.
-TEST(Cost, OfAStepInAllocationsIsNothing) {
-  std::vector<NamedEffect> all = effects_with_state();
-  all.push_back({"base", base});
-  for (const NamedEffect& effect : all) {
-    EXPECT_EQ(allocations_in_steady_state(stacked(4, 30, 0.1), effect.make), 0U) << effect.name;
   }
 }
 

@@ -6,9 +6,25 @@
 #include <utility>
 
 #include "fiber_proximity/sim/effects.hpp"
+#include "fiber_proximity/sim/joints.hpp"
 #include "validation/sim/contact_scenes.hpp"
 
 namespace fiber::test {
+
+/// Joints and closed rods as there were, as they are now. What they were bent and twisted by makes
+/// no difference to how the centre of mass moves.
+inline std::unique_ptr<Joints> joined_again(Rods& rods, const Joints& before) {
+  auto joints = std::make_unique<Joints>(Joints::Options{true, std::make_shared<Damping>(0.01)});
+  for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
+    if (rods.is_closed(rod)) {
+      joints->close(rods, rod);
+    }
+  }
+  for (const Joints::Joint& joint : before.joints()) {
+    joints->add(rods, joint);
+  }
+  return joints;
+}
 
 /// Rods that have come to lie somewhere, with nothing that holds them any more, and gravity turned
 /// round: no holds, no friction, no drag. Where contacts lock, they stay.
@@ -16,7 +32,9 @@ class Reversal {
  public:
   /// @param rods        at the end of what has settled them
   /// @param contacts    with nothing above the rods, and without friction; null for none
-  Reversal(Rods rods, std::unique_ptr<Contacts> contacts, const StepperOptions& options) {
+  /// @param joints      of these rods; null for none
+  Reversal(Rods rods, std::unique_ptr<Contacts> contacts, const StepperOptions& options,
+           std::unique_ptr<Joints> joints = nullptr) {
     Effects effects = elastic(-standard_gravity);
     effects.push_back(std::make_unique<Damping>(0.01));
     if (!rods.angles.empty()) {
@@ -29,7 +47,7 @@ class Reversal {
       spin = 0.0;
     }
     stepper_ = std::make_unique<Stepper>(std::move(rods), std::move(effects), options,
-                                         std::move(contacts));
+                                         std::move(contacts), std::move(joints));
   }
 
   /// Rises for some time [s], in steps of a length [s].

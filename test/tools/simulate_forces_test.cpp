@@ -1,42 +1,11 @@
 // fiber_simulate --forces
-#include <algorithm>
 #include <cmath>
 #include <map>
-#include <sstream>
 
 #include "test/tools/simulate.hpp"
 
 namespace fiber::test {
 namespace {
-
-/// A row of a file of forces.
-struct ForceRow {
-  std::int64_t frame;
-  std::string kind;
-  std::uint32_t fiber;
-  std::uint32_t index;
-  Eigen::Vector3d force;
-  Eigen::Vector3d moment;
-};
-
-std::vector<ForceRow> force_rows(const std::string& text) {
-  std::istringstream lines(text);
-  std::string line;
-  std::getline(lines, line);
-  EXPECT_EQ(line, "frame,kind,fiber,index,fx,fy,fz,mx,my,mz");
-  std::vector<ForceRow> rows;
-  while (std::getline(lines, line)) {
-    std::replace(line.begin(), line.end(), ',', ' ');
-    std::istringstream fields(line);
-    ForceRow& row = rows.emplace_back();
-    fields >> row.frame >> row.kind >> row.fiber >> row.index;
-    for (Eigen::Vector3d* const vector : {&row.force, &row.moment}) {
-      fields >> vector->x() >> vector->y() >> vector->z();
-    }
-    EXPECT_TRUE(fields && fields.peek() == std::istringstream::traits_type::eof()) << line;
-  }
-  return rows;
-}
 
 TEST_F(Simulate, ForcesAreAFileOfTheirOwn) {
   // One hangs, one lies on a table and on nothing else.

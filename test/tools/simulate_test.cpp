@@ -11,25 +11,6 @@
 namespace fiber::test {
 namespace {
 
-/// A rope that a gripper lifts from a table, and one that falls on it.
-const char* const ropes =
-    "fibers:\n"
-    "  - {name: lifted, shape: {line: {from: [0, 0, 0.02], to: [1, 0, 0.02]}}, segments: 20, "
-    "radius: "
-    "0.01, material: silicone_tube}\n"
-    "  - {name: falling, shape: {line: {from: [0.5, -0.5, 0.5], to: [0.5, 0.5, 0.5]}}, segments: "
-    "10, "
-    "radius: 0.005, material: silicone_tube, repeat: {count: 2, offset: [0.1, 0, 0]}}\n"
-    "effects:\n"
-    "  - gravity\n"
-    "  - stretch\n"
-    "  - bend\n"
-    "  - fiber_contact\n"
-    "  - environment_contact\n"
-    "  - friction\n"
-    "  - attachment: [{fiber: lifted, path: [{time: 0}, {time: 1, position: [0, 0, 0.52]}]}]\n"
-    "environment: {obstacles: [{id: table, half_spaces: [{coef: [0, 0, 1, 0]}]}]}\n";
-
 TEST_F(Simulate, FramesAreThoseOfTheStepper) {
   const std::string file = write("scene.yaml", ropes);
   const std::vector<FiberFrame> written = frames(file, "--seconds 0.5");
@@ -63,32 +44,6 @@ TEST_F(Simulate, ThingsMoveAsTheyShould) {
     // Implicit Euler falls a little further: g t (t + step) / 2.
     EXPECT_NEAR(begin[i].z() - end[i].z(), 0.5 * 9.81 * 0.25 * (0.25 + 1.0 / 240.0), 1e-6);
   }
-}
-
-TEST_F(Simulate, HoldsGoAlongATrajectoryInPlaceOfTheirs) {
-  const std::string trajectory =
-      write("trajectory.yaml",
-            "- {fiber: lifted, path: [{time: 0}, {time: 0.25, position: [0.1, 0, 0.02]}]}\n"
-            "- {fiber: lifted, node: last, path: [{time: 0}]}\n");
-  const std::string scene = write("scene.yaml", ropes);
-  const std::vector<FiberFrame> written =
-      frames(scene, "--seconds 0.25 --trajectory " + trajectory);
-  ASSERT_EQ(written.size(), 16U);
-  const std::vector<Eigen::Vector3d>& begin = written.front().fibers.points();
-  const std::vector<Eigen::Vector3d>& end = written.back().fibers.points();
-  EXPECT_NEAR(end[0].x(), 0.1, 1e-3) << "it does not rise as in the scene";
-  EXPECT_NEAR(end[0].z(), 0.02, 1e-3);
-  EXPECT_NEAR((end[20] - begin[20]).norm(), 0.0, 1e-3) << "held, which the scene does not";
-  const auto error = [&](const std::string& text) {
-    const ProcessResult result =
-        run_process(FIBER_SIMULATE " " + scene + " --seconds 0.1 --out " + path("none.csv") +
-                    " --trajectory " + write("bad.yaml", text));
-    EXPECT_EQ(result.exit_code, 2);
-    return result.err;
-  };
-  EXPECT_NE(error("- {fiber: rope}\n").find("bad.yaml:1: "), std::string::npos);
-  EXPECT_NE(error("- {fiber: lifted, path: [{time: 1}, {time: 1}]}\n").find("bad.yaml:1: "),
-            std::string::npos);
 }
 
 TEST_F(Simulate, ThreadsMakeNoDifference) {

@@ -24,6 +24,7 @@ fiber_proximity_gtest(tools_test
   tools/self_contact_test.cpp
   tools/simulate_forces_test.cpp
   tools/simulate_test.cpp
+  tools/simulate_trajectory_test.cpp
   tools/sweep_names_test.cpp
   tools/sweep_test.cpp
   tools/tiny_fibers_test.cpp

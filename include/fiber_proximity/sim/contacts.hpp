@@ -137,6 +137,7 @@ class FiberContact : public ContactSource {
   std::vector<EdgePair> candidates_;
   std::vector<double> candidate_distances_;  // of axes, when they were looked for [m]
   QueryResult result_;
+  std::vector<Eigen::Vector3d> ways_;  // buffer: of nodes since candidates were looked for [m]
 };
 
 struct ObstacleShape;

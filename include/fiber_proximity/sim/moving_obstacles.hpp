@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "fiber_proximity/environment/environment.hpp"
@@ -103,6 +104,7 @@ class ObstacleMotions {
   void require(std::uint32_t obstacle) const;
 
   std::vector<MovingObstacle> obstacles_;
+  std::vector<std::string> titles_;  // of these, for errors
   std::uint32_t first_index_;
   std::uint32_t revision_ = 0;
   double begin_time_ = 0.0;
@@ -128,6 +130,7 @@ class MovingObstacleContact : public ContactSource {
 
  private:
   class Finder;
+  struct RodReach;
 
   void take_shapes();
 
@@ -137,6 +140,8 @@ class MovingObstacleContact : public ContactSource {
   std::unique_ptr<const AllowedParts> allowed_;  // null if no pairs are
   std::vector<MovingShape> moving_;              // all shapes of all objects
   std::vector<ObstacleShape> shapes_;            // the same, where they are when the solve starts
+  std::vector<RodReach> reaches_;                // buffer: by rod
+  FiberAssembly fibers_;  // doubled, if any pairs are allowed: how many segments there are counts
 };
 
 }  // namespace fiber

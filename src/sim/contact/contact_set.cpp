@@ -38,7 +38,7 @@ void ContactSet::clear() {
   was_near_.clear();
   frictions_.clear();
   impacts_.clear();
-  moved_.reset();
+  has_motion_ = false;
   for (std::vector<ContactTerm>& terms : terms_) {
     terms.clear();
   }
@@ -47,8 +47,8 @@ void ContactSet::clear() {
 /// Calls function(points, term) for each term of a contact's energy.
 /// @param found buffer for the terms
 template <class Function>
-void ContactSet::for_each_term(const Rods& rods, std::size_t index,
-                               std::vector<DistanceTerm>& found, const Function& function) const {
+void ContactSet::for_each_term(const Rods& rods, std::size_t index, DistanceTerms& found,
+                               const Function& function) const {
   found.clear();
   if (index < obstacle_contacts.size()) {
     const ObstacleContact& contact = obstacle_contacts[index];
@@ -113,9 +113,10 @@ void move_reference(const MovedShapes& moved, const Rods& rods, const ContactPoi
 /// rod is_wanted(rod) holds.
 template <class Predicate>
 void ContactSet::add_friction(const Rods& rods, const Predicate& is_wanted) {
-  std::vector<std::vector<FrictionPoint>> by_chunk(chunk_count(distance_count()));
+  by_chunk_.resize(std::max(by_chunk_.size(), chunk_count(distance_count())));
   for_each_chunk(distance_count(), [&](std::size_t index, std::size_t begin, std::size_t end) {
-    std::vector<DistanceTerm> buffer;
+    DistanceTerms buffer;
+    by_chunk_[index].clear();
     for (std::size_t i = begin; i < end; ++i) {
       if (!is_wanted(rods_of(i).first)) {
         continue;
@@ -130,18 +131,17 @@ void ContactSet::add_friction(const Rods& rods, const Predicate& is_wanted) {
           }
           const double max_force = friction_->coefficient() * term.pressure;
           Vector3d slip = origins_.anchors->slip_at(points, term.normal, max_force, stick_length_);
-          if (moved_ != nullptr) {
+          if (has_motion_) {
             move_reference(*moved_, rods, points, levers, reference, slip);
           }
           reference -= slip;
-          by_chunk[index].reserve(end - begin);
-          by_chunk[index].push_back({points, term.normal, max_force, reference, levers});
+          by_chunk_[index].push_back({points, term.normal, max_force, reference, levers});
         }
       });
     }
   });
-  for (const std::vector<FrictionPoint>& points : by_chunk) {
-    frictions_.insert(frictions_.end(), points.begin(), points.end());
+  for (std::size_t i = 0; i < chunk_count(distance_count()); ++i) {
+    frictions_.insert(frictions_.end(), by_chunk_[i].begin(), by_chunk_[i].end());
   }
 }
 
@@ -273,7 +273,7 @@ double ContactSet::stored_energy() const {
   return std::accumulate(energies_.begin(), end, 0.0);
 }
 
-void ContactSet::find_terms(const Rods& rods, std::size_t contact, std::vector<DistanceTerm>& found,
+void ContactSet::find_terms(const Rods& rods, std::size_t contact, DistanceTerms& found,
                             std::vector<ContactTerm>& terms) const {
   const auto add = [&](const ContactPoints& points, const DistanceTerm& term) {
     terms.push_back({points, term.slope * term.normal,
@@ -300,15 +300,15 @@ void ContactSet::find_terms(const Rods& rods, std::size_t contact, std::vector<D
 }
 
 void ContactSet::find_derivatives(const Rods& rods) {
-  terms_.resize(chunk_count(contact_count()));
+  terms_.resize(std::max(terms_.size(), chunk_count(contact_count())));
+  std::for_each(terms_.begin(), terms_.end(), [](auto& terms) { terms.clear(); });
   for_each_chunk(contact_count(), [&](std::size_t index, std::size_t begin, std::size_t end) {
-    std::vector<DistanceTerm> found;
-    terms_[index].clear();
+    DistanceTerms found;
     for (std::size_t i = begin; i < end; ++i) {
       find_terms(rods, i, found, terms_[index]);
     }
   });
-  if (moved_ != nullptr) {
+  if (has_motion_) {
     add_terms_of_motion(rods);
   }
 }

@@ -50,11 +50,15 @@ class ContactSet {
   /// @param islands by rod
   /// @param count   of islands
   void begin_motion(const std::vector<std::uint32_t>& islands, std::size_t count) {
-    moved_ = std::make_shared<MovedShapes>(obstacle_contacts, obstacle_edges, islands, count);
+    if (moved_.use_count() != 1) {
+      moved_ = std::make_shared<MovedShapes>();
+    }
+    moved_->assign(obstacle_contacts, obstacle_edges, islands, count);
+    has_motion_ = true;
   }
 
   /// Null without begin_motion().
-  MovedShapes* moved_shapes() const { return moved_.get(); }
+  MovedShapes* moved_shapes() const { return has_motion_ ? moved_.get() : nullptr; }
 
   bool is_empty() const {
     return pairs.empty() && obstacle_contacts.empty() && obstacle_edges.empty();
@@ -179,11 +183,11 @@ class ContactSet {
   template <class Function>
   void for_each_obstacle_force(const Rods& rods, const Function& function) const;
   template <class Function>
-  void for_each_term(const Rods& rods, std::size_t index, std::vector<DistanceTerm>& found,
+  void for_each_term(const Rods& rods, std::size_t index, DistanceTerms& found,
                      const Function& function) const;
   double energy_of(const Rods& rods, std::size_t contact) const;
   void evaluate_energies(const Rods& rods, std::size_t first);
-  void find_terms(const Rods& rods, std::size_t contact, std::vector<DistanceTerm>& found,
+  void find_terms(const Rods& rods, std::size_t contact, DistanceTerms& found,
                   std::vector<ContactTerm>& terms) const;
   std::pair<std::uint32_t, std::uint32_t> rods_of(std::size_t contact) const;
   std::size_t distance_count() const { return obstacle_contacts.size() + pairs.size(); }
@@ -194,14 +198,16 @@ class ContactSet {
   std::vector<bool> was_near_;                        // when the step began, by contact
   std::vector<FrictionPoint> frictions_;
   std::vector<Impact> impacts_;  // of the step
-  // Null where no obstacle moves; those of a copy are the same, as its contacts are with them.
+  bool has_motion_ = false;      // in this solve
+  // Kept for the next solve. Those of a copy are the same, as its contacts are with them.
   std::shared_ptr<MovedShapes> moved_;
   const Friction* friction_ = nullptr;
   FrictionOrigins origins_;
   double step_ = 0.0;          // [s]
   double stick_length_ = 0.0;  // [m]
   ContactTerms terms_;
-  std::vector<double> energies_;  // by contact [J]
+  std::vector<double> energies_;                      // by contact [J]
+  std::vector<std::vector<FrictionPoint>> by_chunk_;  // buffer of add_friction()
 };
 
 }  // namespace fiber

@@ -43,7 +43,7 @@ void ContactSet::add_forces(const Rods& rods, std::vector<RodForces::ContactForc
     force.point += std::abs(term.slope) * between;
     weights[static_cast<std::size_t>(&force - forces.data())] += std::abs(term.slope);
   };
-  std::vector<DistanceTerm> buffer;
+  DistanceTerms buffer;
   for (std::size_t i = 0; i < distance_count(); ++i) {
     for_each_term(rods, i, buffer, press);
   }

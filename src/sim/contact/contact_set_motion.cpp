@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 /// their way, with the part of that which is left, along the normal.
 template <class Function>
 void ContactSet::for_each_term_of_motion(const Rods& rods, const Function& function) const {
-  std::vector<DistanceTerm> buffer;
+  DistanceTerms buffer;
   for (std::size_t i = 0; i < obstacle_contacts.size(); ++i) {
     const MovedShape* const shape = moved_->of_contact(i);
     if (shape != nullptr && !shape->has_arrived()) {
@@ -30,7 +30,6 @@ void ContactSet::for_each_term_of_motion(const Rods& rods, const Function& funct
 /// While obstacles are on their way, a step of Newton's method is that of the rods with them: the
 /// forces by which contacts would change if the obstacle went on alone act on the rods.
 void ContactSet::add_terms_of_motion(const Rods& rods) {
-  std::vector<ContactTerm> terms;
   for_each_term_of_motion(
       rods, [&](const ContactPoints& points, const DistanceTerm& term, double approach) {
         terms_[0].push_back(
@@ -64,7 +63,7 @@ void ContactSet::add_motion_energies(const Rods& rods, const std::vector<Vector3
 
 /// That of the obstacle where it touches, in the mean over the step; zero of one that stands still.
 Vector3d ContactSet::obstacle_velocity(const Rods& rods, const ContactPoints& points) const {
-  const MovedShape* const shape = moved_ != nullptr ? moved_->of_object(points) : nullptr;
+  const MovedShape* const shape = has_motion_ ? moved_->of_object(points) : nullptr;
   if (shape == nullptr) {
     return Vector3d::Zero();
   }
@@ -75,7 +74,7 @@ Vector3d ContactSet::obstacle_velocity(const Rods& rods, const ContactPoints& po
 /// Calls function(points, shape, point, force) for the forces of moving obstacles on rods.
 template <class Function>
 void ContactSet::for_each_obstacle_force(const Rods& rods, const Function& function) const {
-  std::vector<DistanceTerm> buffer;
+  DistanceTerms buffer;
   for (std::size_t i = 0; i < obstacle_contacts.size(); ++i) {
     if (const MovedShape* const shape = moved_->of_contact(i)) {
       for_each_term(rods, i, buffer, [&](const ContactPoints& points, const DistanceTerm& term) {
@@ -108,7 +107,7 @@ void ContactSet::add_obstacle_work(const Rods& rods, const std::vector<std::uint
 
 void ContactSet::add_obstacle_forces(const Rods& rods,
                                      std::vector<RodForces::ObstacleForce>& forces) const {
-  if (moved_ == nullptr || forces.empty()) {
+  if (!has_motion_ || forces.empty()) {
     return;
   }
   const auto act = [&](const ContactPoints& points, const Vector3d& point, const Vector3d& on_rod) {

@@ -197,7 +197,7 @@ std::vector<Impact> ContactSet::find_impacts(const Rods& rods) const {
     return found;
   }
   has_any_begun = false;
-  std::vector<DistanceTerm> buffer;
+  DistanceTerms buffer;
   for (std::size_t i = 0; i < distance_count(); ++i) {
     if (energies_[i] == 0.0) {
       continue;
@@ -223,7 +223,7 @@ void ContactSet::bound_step(const Rods& rods, const std::vector<Vector3d>& displ
                             std::vector<Vector3d>& ends) const {
   for (std::size_t i = 0; i < obstacle_contacts.size(); ++i) {
     double& share = shares[islands[obstacle_contacts[i].rod]];
-    const MovedShape* const moved = moved_ != nullptr ? moved_->of_contact(i) : nullptr;
+    const MovedShape* const moved = has_motion_ ? moved_->of_contact(i) : nullptr;
     if (moved != nullptr && !moved->has_arrived()) {
       share = bounded_share(obstacle_contacts[i], obstacle_distances_[i], *moved, rods.positions,
                             displacements, max_loss, share);
@@ -235,7 +235,7 @@ void ContactSet::bound_step(const Rods& rods, const std::vector<Vector3d>& displ
   for (std::size_t i = 0; i < obstacle_edges.size(); ++i) {
     const ObstacleEdge& edge = obstacle_edges[i];
     double& share = shares[islands[edge.rod]];
-    const MovedShape* const moved = moved_ != nullptr ? moved_->of_edge(i) : nullptr;
+    const MovedShape* const moved = has_motion_ ? moved_->of_edge(i) : nullptr;
     share = moved != nullptr
                 ? bounded_share(edge.edge, *moved, rods.positions, displacements, max_loss, share)
                 : bounded_share(rods, edge, displacements, share);

@@ -36,7 +36,7 @@ class EdgeContact {
     }
   }
 
-  double energy(std::vector<DistanceTerm>* terms) {
+  double energy(DistanceTerms* terms) {
     double energy = add_crossing(terms);
     for (std::uint32_t end = 0; end < 4; ++end) {
       energy += add_node(end, terms);
@@ -68,7 +68,7 @@ class EdgeContact {
   }
 
   /// Adds the energy of the edges' distance, with its weight.
-  double add_crossing(std::vector<DistanceTerm>* terms) {
+  double add_crossing(DistanceTerms* terms) {
     const double distance = nearest_.distance;
     const auto is_inner = [](double parameter) { return parameter > 0.0 && parameter < 1.0; };
     if (!is_inner(nearest_.s) || !is_inner(nearest_.t)) {
@@ -106,7 +106,7 @@ class EdgeContact {
   }
 
   /// Adds the energy of the distance of an end from the other edge.
-  double add_node(std::uint32_t end, std::vector<DistanceTerm>* terms) {
+  double add_node(std::uint32_t end, DistanceTerms* terms) {
     const EndDistance& to_end = ends_[end];
     if (!pair_.owns[end] || to_end.distance >= barrier_.outer) {
       return 0.0;
@@ -149,7 +149,7 @@ class EdgeContact {
 
   /// In the hollow of a bend neither edge is nearest at the node between them. Each of the two
   /// pairs subtracts half of the node's energy, as the potential of a polyline requires.
-  double add_corner(std::uint32_t end, std::uint32_t last, std::vector<DistanceTerm>* terms) {
+  double add_corner(std::uint32_t end, std::uint32_t last, DistanceTerms* terms) {
     const Vector3d delta = x_[node_of(end)] - x_[other_edge(end) + last];
     const EndDistance corner{static_cast<double>(last), delta, delta.norm()};
     if (corner.distance >= barrier_.outer || !(corner.distance > barrier_.inner)) {
@@ -176,7 +176,7 @@ class EdgeContact {
 }  // namespace
 
 double edge_contact(const EdgePair& pair, const std::vector<Vector3d>& positions,
-                    const SegmentDistance& nearest, std::vector<DistanceTerm>* terms) {
+                    const SegmentDistance& nearest, DistanceTerms* terms) {
   if (nearest.distance >= pair.barrier.outer) {
     return 0.0;
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cassert>
 #include <vector>
 
 #include "fiber_proximity/geometry/segment_distance.hpp"
@@ -79,6 +80,23 @@ struct DistanceTerm {
   double across = 0.0;
 };
 
+/// The terms of one contact: two edges have no more than that of their own distance and, for each
+/// end, that of its distance and those of two corners.
+class DistanceTerms {
+ public:
+  void push_back(const DistanceTerm& term) {
+    assert(count_ < terms_.size());
+    terms_[count_++] = term;
+  }
+  void clear() { count_ = 0; }
+  const DistanceTerm* begin() const { return terms_.data(); }
+  const DistanceTerm* end() const { return terms_.data() + count_; }
+
+ private:
+  std::array<DistanceTerm, 13> terms_;
+  std::size_t count_ = 0;
+};
+
 /// The potential of two polylines near each other, edge by edge:
 ///
 /// - Each node has the barrier of its distance from the other polyline: the sum over that one's
@@ -97,6 +115,6 @@ struct DistanceTerm {
 /// @param terms   appended to; null if only the energy is asked for
 /// @returns energy [J], infinite where a distance has reached its least value
 double edge_contact(const EdgePair& pair, const std::vector<Eigen::Vector3d>& positions,
-                    const SegmentDistance& nearest, std::vector<DistanceTerm>* terms);
+                    const SegmentDistance& nearest, DistanceTerms* terms);
 
 }  // namespace fiber

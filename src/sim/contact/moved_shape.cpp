@@ -65,12 +65,17 @@ constexpr int max_halvings = 40;
 }  // namespace
 
 MovedShape::MovedShape(const ObstacleShape& source)
-    : now_(source),
-      first_(source.moving->motion->start * source.moving->in_object),
-      last_(nearest_alike(*source.shape, first_,
-                          source.moving->motion->end * source.moving->in_object)),
-      path_(first_, last_),
-      turn_(Vector3d::Zero()) {
+    : now_(source), first_(source.pose), last_(source.pose), path_(first_, last_) {
+  assign(source);
+}
+
+void MovedShape::assign(const ObstacleShape& source) {
+  const MovingShape& moving = *source.moving;
+  now_ = source;
+  first_ = moving.motion->start * moving.in_object;
+  last_ = nearest_alike(*source.shape, first_, moving.motion->end * moving.in_object);
+  path_ = ObjectPath(first_, last_);
+  turn_.setZero();
   if (path_.turns()) {
     const Eigen::AngleAxisd turn(Eigen::Matrix3d(last_.linear() * first_.linear().transpose()));
     turn_ = turn.angle() * turn.axis();

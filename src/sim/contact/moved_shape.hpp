@@ -27,6 +27,9 @@ class MovedShape {
   MovedShape(const MovedShape&) = delete;
   MovedShape& operator=(const MovedShape&) = delete;
 
+  /// Makes it one of another solve.
+  void assign(const ObstacleShape& source);
+
   /// Where it is.
   const ObstacleShape& now() const { return now_; }
 
@@ -70,8 +73,8 @@ class MovedShape {
   ObstacleShape now_;
   Eigen::Isometry3d first_;
   Eigen::Isometry3d last_;
-  ObjectPath path_;       // from the first to the last
-  Eigen::Vector3d turn_;  // along it, about this axis by its length [rad]
+  ObjectPath path_;                                 // from the first to the last
+  Eigen::Vector3d turn_ = Eigen::Vector3d::Zero();  // along it, about this axis by its length [rad]
   double progress_ = 0.0;
 };
 

@@ -6,9 +6,12 @@
 
 namespace fiber {
 
-MovedShapes::MovedShapes(std::vector<ObstacleContact>& contacts, std::vector<ObstacleEdge>& edges,
-                         const std::vector<std::uint32_t>& islands, std::size_t count)
-    : progress_(count, 1.0) {
+void MovedShapes::assign(std::vector<ObstacleContact>& contacts, std::vector<ObstacleEdge>& edges,
+                         const std::vector<std::uint32_t>& islands, std::size_t count) {
+  shapes_.clear();
+  of_contacts_.clear();
+  of_edges_.clear();
+  progress_.assign(count, 1.0);
   for (ObstacleContact& contact : contacts) {
     const ObstacleShape& shape = contact.piece.shape();
     of_contacts_.push_back(shape.moving == nullptr ? nullptr
@@ -32,8 +35,14 @@ MovedShape& MovedShapes::placed(const ObstacleShape& source, std::uint32_t islan
       return *each.shape;
     }
   }
-  shapes_.push_back({&source, island, std::make_unique<MovedShape>(source)});
-  MovedShape& shape = *shapes_.back().shape;
+  const std::size_t index = shapes_.size();
+  if (index == memory_.size()) {
+    memory_.push_back(std::make_unique<MovedShape>(source));
+  } else {
+    memory_[index]->assign(source);
+  }
+  MovedShape& shape = *memory_[index];
+  shapes_.push_back({&source, island, &shape});
   progress_[island] = std::min(progress_[island], shape.progress());
   return shape;
 }
@@ -44,7 +53,7 @@ const MovedShape* MovedShapes::of_object(const ContactPoints& points) const {
   }
   for (const Placed& each : shapes_) {
     if (each.source->object == points.rod_b) {
-      return each.shape.get();
+      return each.shape;
     }
   }
   return nullptr;

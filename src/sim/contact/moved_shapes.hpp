@@ -15,10 +15,10 @@ struct ObstacleEdge;
 /// so each has its shapes for itself, which come along as its rods give way.
 class MovedShapes {
  public:
-  /// Makes the contacts those with the shapes that this has.
+  /// Begins a solve: makes the contacts those with the shapes that this has. Memory is reused.
   /// @param islands by rod
   /// @param count   of islands
-  MovedShapes(std::vector<ObstacleContact>& contacts, std::vector<ObstacleEdge>& edges,
+  void assign(std::vector<ObstacleContact>& contacts, std::vector<ObstacleEdge>& edges,
               const std::vector<std::uint32_t>& islands, std::size_t count);
 
   /// Null where it stands still.
@@ -40,11 +40,12 @@ class MovedShapes {
   struct Placed {
     const ObstacleShape* source;
     std::uint32_t island;
-    std::unique_ptr<MovedShape> shape;
+    MovedShape* shape;
   };
 
   MovedShape& placed(const ObstacleShape& source, std::uint32_t island);
 
+  std::vector<std::unique_ptr<MovedShape>> memory_;  // of the first so many, and for more
   std::vector<Placed> shapes_;
   std::vector<MovedShape*> of_contacts_;
   std::vector<MovedShape*> of_edges_;

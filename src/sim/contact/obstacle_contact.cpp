@@ -234,7 +234,7 @@ ObstacleDistance obstacle_distance(const ObstacleContact& contact,
 }
 
 double obstacle_contact(const ObstacleContact& contact, const ObstacleDistance& distance,
-                        std::vector<DistanceTerm>* terms) {
+                        DistanceTerms* terms) {
   const Barrier& barrier = contact.barrier;
   const double weight = distance.weight;
   if (weight == 0.0 || distance.nearest.distance >= barrier.outer) {

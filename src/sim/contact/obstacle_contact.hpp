@@ -102,7 +102,7 @@ ObstacleDistance obstacle_distance(const ObstacleContact& contact,
 /// @param terms appended to, t being 0; null if only the energy is asked for
 /// @returns energy [J], infinite where a distance has reached its least value
 double obstacle_contact(const ObstacleContact& contact, const ObstacleDistance& distance,
-                        std::vector<DistanceTerm>* terms);
+                        DistanceTerms* terms);
 
 /// Whether tangents prove that the distance of an edge does not fall below a floor while its ends
 /// move. A tangent's bound at a place is linear in time: where it is above the floor before and

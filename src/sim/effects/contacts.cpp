@@ -76,11 +76,11 @@ void FiberContact::find(const Rods& rods, const TravelBound& bound, ContactSet& 
   const double needed = 2.0 * (Barrier::half_width * largest + expected + largest_of(bound.by_rod));
   double moved = 0.0;  // by rods beside each other since candidates were looked for
   if (fibers_.point_count() == rods.positions.size()) {
-    std::vector<Vector3d> ways(rods.positions.size());
-    for (std::size_t i = 0; i < ways.size(); ++i) {
-      ways[i] = rods.positions[i] - fibers_.points()[i];
+    ways_.resize(rods.positions.size());
+    for (std::size_t i = 0; i < ways_.size(); ++i) {
+      ways_[i] = rods.positions[i] - fibers_.points()[i];
     }
-    moved = spread_of(ways);
+    moved = spread_of(ways_);
   }
   // The reach serves for some steps. One that was chosen for faster motion finds too many.
   const double wanted = needed + largest + 4.0 * expected;

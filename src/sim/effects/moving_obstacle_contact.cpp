@@ -14,13 +14,25 @@ namespace fiber {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
+/// What a rod may come to in a solve.
+struct MovingObstacleContact::RodReach {
+  WorldBox box;         // of the rod
+  double needed = 0.0;  // the distance within which it may reach contacts [m]
+};
+
 /// Looks for the contacts of one solve: of each shape with each rod, whose box tells of most that
 /// there are none.
 class MovingObstacleContact::Finder {
  public:
   Finder(const EnvironmentContact::Options& options, const Rods& rods, const TravelBound& bound,
-         ContactSet& found)
-      : options_(options), rods_(rods), bound_(bound), found_(found) {
+         const FiberAssembly& fibers, std::vector<RodReach>& reaches, ContactSet& found)
+      : options_(options),
+        rods_(rods),
+        bound_(bound),
+        fibers_(fibers),
+        reaches_(reaches),
+        found_(found) {
+    reaches.clear();
     for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
       WorldBox box;
       double expected = 0.0;
@@ -28,12 +40,8 @@ class MovingObstacleContact::Finder {
         box.extend(rods.positions[i]);
         expected = std::max(expected, bound.expected[i].squaredNorm());
       }
-      boxes_.push_back(box);
-      needed_.push_back(std::sqrt(expected) + bound.by_rod[rod] +
-                        (1.0 + Barrier::half_width) * rods.radii[rod]);
-    }
-    if (!options.allowed.empty()) {
-      fibers_ = doubled_fibers(rods);
+      reaches.push_back({box, std::sqrt(expected) + bound.by_rod[rod] +
+                                  (1.0 + Barrier::half_width) * rods.radii[rod]});
     }
   }
 
@@ -45,8 +53,9 @@ class MovingObstacleContact::Finder {
     const ObjectPath path(shape.pose, last);
     const WorldBox box = world_box(*shape.shape, shape.pose);
     for (std::uint32_t rod = 0; rod < rods_.count(); ++rod) {
-      const double within = needed_[rod] + path.way().norm() + turn_length(shape, path, rod);
-      if (!(boxes_[rod].exteriorDistance(box) > within)) {
+      const double within =
+          reaches_[rod].needed + path.way().norm() + turn_length(shape, path, rod);
+      if (!(reaches_[rod].box.exteriorDistance(box) > within)) {
         find_of(shape, rod, within, [&](std::uint32_t element) {
           return parts != nullptr && parts->holds(fibers_, {rod, element}, index);
         });
@@ -65,10 +74,10 @@ class MovingObstacleContact::Finder {
     }
     // What counts of a plane is what is near the rod.
     const Vector3d origin = shape.pose.translation();
-    const WorldBox& box = boxes_[rod];
+    const WorldBox& box = reaches_[rod].box;
     const double far =
         (box.max() - origin).cwiseAbs().cwiseMax((origin - box.min()).cwiseAbs()).norm();
-    return path.turn_length(far + needed_[rod] + path.way().norm());
+    return path.turn_length(far + reaches_[rod].needed + path.way().norm());
   }
 
   /// @param is_allowed whether an element may overlap: of even index nodes, of odd index edges
@@ -126,10 +135,9 @@ class MovingObstacleContact::Finder {
   const EnvironmentContact::Options& options_;
   const Rods& rods_;
   const TravelBound& bound_;
+  const FiberAssembly& fibers_;
+  const std::vector<RodReach>& reaches_;  // by rod
   ContactSet& found_;
-  std::vector<WorldBox> boxes_;  // by rod
-  std::vector<double> needed_;   // by rod: the distance within which it may reach contacts [m]
-  FiberAssembly fibers_;         // the doubled ones, if any pairs are allowed
 };
 
 MovingObstacleContact::MovingObstacleContact(std::shared_ptr<const ObstacleMotions> motions,
@@ -183,7 +191,10 @@ void MovingObstacleContact::find(const Rods& rods, const TravelBound& bound, Con
   if (shapes_.empty()) {
     return;
   }
-  Finder finder(options_, rods, bound, found);
+  if (allowed_ != nullptr && fibers_.point_count() != 2 * rods.positions.size()) {
+    fibers_ = doubled_fibers(rods);
+  }
+  Finder finder(options_, rods, bound, fibers_, reaches_, found);
   for (ObstacleShape& shape : shapes_) {
     shape.pose = shape.moving->motion->start * shape.moving->in_object;
     shape.to_shape = shape.pose.inverse(Eigen::Isometry);

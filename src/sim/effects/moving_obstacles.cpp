@@ -14,8 +14,8 @@ using Eigen::Isometry3d;
 
 namespace {
 
-Isometry3d placed_at(const MovingObstacle& obstacle, double time) {
-  return with_context("obstacle " + quote(obstacle.object.name), [&] {
+Isometry3d placed_at(const MovingObstacle& obstacle, const std::string& title, double time) {
+  return with_context(title, [&] {
     const Isometry3d pose = obstacle.placement(time);
     fiber::validate(pose);
     return pose;
@@ -36,13 +36,15 @@ ObstacleMotions::ObstacleMotions(std::vector<MovingObstacle> obstacles, std::uin
 }
 
 void ObstacleMotions::add(MovingObstacle obstacle, double time) {
-  obstacle.object.pose = placed_at(obstacle, time);
+  const std::string title = "obstacle " + quote(obstacle.object.name);
+  obstacle.object.pose = placed_at(obstacle, title, time);
   validate(obstacle.object);
   const Isometry3d& pose = obstacle.object.pose;
   poses_.push_back(pose);
   begin_.push_back(pose);
   motions_.push_back({pose, pose, pose, 0.0});
   obstacles_.push_back(std::move(obstacle));
+  titles_.push_back(title);
   ++revision_;
 }
 
@@ -50,6 +52,7 @@ void ObstacleMotions::remove(std::uint32_t obstacle) {
   require(obstacle);
   const auto erase = [obstacle](auto& list) { list.erase(list.begin() + obstacle); };
   erase(obstacles_);
+  erase(titles_);
   erase(poses_);
   erase(begin_);
   erase(motions_);
@@ -109,7 +112,8 @@ void ObstacleMotions::begin_step(double time) {
 
 void ObstacleMotions::begin_solve(double time) {
   for (std::size_t i = 0; i < obstacles_.size(); ++i) {
-    motions_[i] = {begin_[i], poses_[i], placed_at(obstacles_[i], time), time - begin_time_};
+    motions_[i] = {begin_[i], poses_[i], placed_at(obstacles_[i], titles_[i], time),
+                   time - begin_time_};
   }
 }
 

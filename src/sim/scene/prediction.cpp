@@ -2,16 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <memory>
 #include <set>
 #include <stdexcept>
-#include <tuple>
 #include <utility>
 
-#include "fiber_proximity/query/engine.hpp"
-#include "fiber_proximity/sim/joints.hpp"
 #include "src/sim/scene/parts.hpp"
+#include "src/sim/scene/prediction_observer.hpp"
 #include "src/sim/scene/reach.hpp"
 #include "src/text/with_context.hpp"
 
@@ -21,9 +18,6 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double max_speed = 1000.0;  // [m/s]
-
-/// The bodies of a pair: whether the second one is an object, then the two.
-using Bodies = std::tuple<bool, std::uint32_t, std::uint32_t>;
 
 [[noreturn]] void refuse(const std::string& problem) { throw std::invalid_argument(problem); }
 
@@ -83,147 +77,6 @@ PlacementPath path_from_now(const SimScene& scene, const HoldTrajectory& traject
   return whole;
 }
 
-/// Collects what happens.
-class Observer {
- public:
-  Observer(const SimScene& scene, const PredictionOptions& options)
-      : scene_(scene), begin_(scene.stepper->time()), engine_(make_engine("run_tree")) {
-    query_.type = QueryType::FIBER_PAIRS;
-    query_.margin = options.margin;
-    const Rods& rods = scene.stepper->rods();
-    fibers_ = assembly_of(rods);
-    prediction_.tensions.resize(rods.count());
-    for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
-      prediction_.tensions[rod].rod = rod;
-    }
-  }
-
-  double time() const { return scene_.stepper->time() - begin_; }
-
-  void look() {
-    fibers_.update_points(scene_.stepper->rods().positions);
-    engine_->update(fibers_);
-    engine_->query(query_, result_);
-    add_clearances(false);
-    if (scene_.motions() == nullptr) {
-      scene_.environment->query(fibers_, query_, {}, result_);
-    } else {
-      Environment(scene_.objects()).query(fibers_, query_, {}, result_);
-    }
-    add_clearances(true);
-    add_forces(scene_.stepper->forces());
-    prediction_.time = time();
-  }
-
-  /// To be called after each frame: before the first one the last step is that of the running
-  /// scene.
-  void count_unbalanced() {
-    prediction_.unbalanced_frames += scene_.stepper->report().unbalanced > 0 ? 1 : 0;
-  }
-
-  void sample() { prediction_.samples.push_back({time(), scene_.stepper->rods().positions}); }
-
-  Prediction take() {
-    for (auto& [bodies, clearance] : clearances_) {
-      prediction_.clearances.push_back(clearance);
-    }
-    for (auto& [bodies, touch] : touches_) {
-      prediction_.touches.push_back(touch);
-    }
-    for (auto& [node, hold] : holds_) {
-      prediction_.holds.push_back(hold);
-    }
-    return std::move(prediction_);
-  }
-
-  void stop(const std::string& problem) { prediction_.problem = problem; }
-
- private:
-  void add_clearances(bool is_object) {
-    for (const Contact& contact : result_.contacts) {
-      const Bodies bodies(is_object, contact.fiber_a, contact.fiber_b);
-      const auto [place, is_new] =
-          clearances_.try_emplace(bodies, PredictedClearance{is_object, contact, time()});
-      if (!is_new && contact.distance < place->second.contact.distance) {
-        place->second = {is_object, contact, time()};
-      }
-    }
-  }
-
-  void add_forces(const RodForces& forces) {
-    const Rods& rods = scene_.stepper->rods();
-    for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
-      for (std::uint32_t edge = rods.first(rod); edge + 1 < rods.end(rod); ++edge) {
-        keep_greater({rod, edge - rods.first(rod),
-                      forces.tensions.empty() ? 0.0 : forces.tensions[edge], time()},
-                     prediction_.tensions[rod]);
-      }
-    }
-    for (const RodForces::HoldForce& hold : forces.holds) {
-      const GreatestForce now{hold.rod, hold.node, hold.force.norm(), time()};
-      keep_greater(now, holds_.try_emplace({hold.rod, hold.node}, now).first->second);
-    }
-    std::map<Bodies, double> sums;
-    for (const RodForces::ContactForce& contact : forces.contacts) {
-      const bool is_object = contact.other_rod == RodForces::ContactForce::obstacle;
-      const std::uint32_t other = is_object ? contact.object : contact.other_rod;
-      const Bodies bodies =
-          is_object ? Bodies(true, contact.rod, other)
-                    : Bodies(false, std::min(contact.rod, other), std::max(contact.rod, other));
-      sums[bodies] += contact.normal_force.norm();
-    }
-    for (const auto& [bodies, force] : sums) {
-      if (force > 0.0) {
-        add_touch(bodies, force);
-      }
-    }
-  }
-
-  void add_touch(const Bodies& bodies, double force) {
-    const auto& [is_object, rod, other] = bodies;
-    PredictedTouch& touch =
-        touches_
-            .try_emplace(bodies, PredictedTouch{rod, is_object, other, time(), time(), 0.0, 0.0})
-            .first->second;
-    touch.last = time();
-    if (force > touch.max_force) {
-      touch.max_force = force;
-      touch.time_of_max = time();
-    }
-  }
-
-  static void keep_greater(const GreatestForce& force, GreatestForce& greatest) {
-    if (force.force > greatest.force) {
-      greatest = force;
-    }
-  }
-
-  const SimScene& scene_;
-  const double begin_;  // [s]
-  std::unique_ptr<ProximityEngine> engine_;
-  FiberAssembly fibers_;
-  QueryOptions query_;
-  QueryResult result_;
-  Prediction prediction_;
-  std::map<Bodies, PredictedClearance> clearances_;
-  std::map<Bodies, PredictedTouch> touches_;
-  std::map<std::pair<std::uint32_t, std::uint32_t>, GreatestForce> holds_;
-};
-
-void validate(const PredictionOptions& options) {
-  if (!(options.duration > 0.0 && options.duration <= PredictionOptions::max_duration)) {
-    refuse(format("duration is ", options.duration, " s, it must be more than 0 and at most ",
-                  PredictionOptions::max_duration));
-  }
-  if (!(options.sample_period >= 0.0 && std::isfinite(options.sample_period))) {
-    refuse(
-        format("sample_period is ", options.sample_period, " s, it must be finite and at least 0"));
-  }
-  if (!(options.margin >= 0.0 && std::isfinite(options.margin))) {
-    refuse(format("margin is ", options.margin, " m, it must be finite and at least 0"));
-  }
-}
-
 }  // namespace
 
 void follow(SimScene& scene, const std::vector<HoldTrajectory>& trajectories) {
@@ -260,8 +113,7 @@ void follow(SimScene& scene, const std::vector<HoldTrajectory>& trajectories) {
 
 Prediction predict(SimScene& scene, const PredictionOptions& options,
                    const std::function<bool()>& is_cancelled) {
-  validate(options);
-  Observer observer(scene, options);
+  PredictionObserver observer(scene, options);
   const auto frames =
       static_cast<std::int64_t>(std::ceil(options.duration / scene.time_step * (1.0 - 1e-9)));
   double next_sample = options.sample_period > 0.0 ? 0.0 : options.duration;

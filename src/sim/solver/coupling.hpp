@@ -102,14 +102,15 @@ class Coupling {
   }
 
   /// Adds the packs' partial sums up by island.
-  std::vector<double> sums(const Problem& problem) const {
-    std::vector<double> sums(states_.size(), 0.0);
+  /// @returns valid until called again
+  const std::vector<double>& sums(const Problem& problem) {
+    sums_.assign(states_.size(), 0.0);
     for (std::size_t pack = 0; pack < problem.packs.size(); ++pack) {
       for (std::size_t lane = 0; lane < problem.packs[pack].rods().used; ++lane) {
-        sums[problem.islands[pack][lane]] += partial_sums_[pack][lane];
+        sums_[problem.islands[pack][lane]] += partial_sums_[pack][lane];
       }
     }
-    return sums;
+    return sums_;
   }
 
   /// The step by the bands leaves the coupling as residual.
@@ -134,7 +135,7 @@ class Coupling {
       partial_sums_[pack] = dot_products(size, &residual_[first], &direction_[first]);
     });
     precondition_joints(problem, direction_);
-    const std::vector<double> norms = sums(problem);
+    const std::vector<double>& norms = sums(problem);
     for (std::size_t i = 0; i < states_.size(); ++i) {
       states_[i].squared_norm = norms[i];
     }
@@ -170,7 +171,7 @@ class Coupling {
     for_each_part(problem, Work::LITTLE, [&](std::size_t pack, std::size_t first, SumSize size) {
       partial_sums_[pack] = dot_products(size, &direction_[first], &hessian_product_[first]);
     });
-    const std::vector<double> curvatures = sums(problem);
+    const std::vector<double>& curvatures = sums(problem);
     for (std::size_t i = 0; i < states_.size(); ++i) {
       CgState& state = states_[i];
       state.is_solving &= curvatures[i] > 0.0 && std::isfinite(curvatures[i]);
@@ -194,7 +195,7 @@ class Coupling {
       partial_sums_[pack] = dot_products(size, &residual_[first], &preconditioned_[first]);
     });
     precondition_joints(problem, preconditioned_);
-    const std::vector<double> norms = sums(problem);
+    const std::vector<double>& norms = sums(problem);
     for (std::size_t i = 0; i < states_.size(); ++i) {
       states_[i].squared_norm = norms[i];
       states_[i].direction_factor *= norms[i];
@@ -215,6 +216,7 @@ class Coupling {
 
   std::vector<CgState> states_;                    // by island
   std::vector<SimdBatch> partial_sums_;            // by pack
+  std::vector<double> sums_;                       // by island
   std::vector<SimdBatch> residual_;                // r
   std::vector<SimdBatch> preconditioned_;          // M⁻¹ r
   std::vector<SimdBatch> direction_;               // p

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <tuple>
 
 #include "src/sim/solver/pack_kernels.hpp"
 
@@ -86,11 +87,11 @@ std::uint32_t JointSolver::add_place_rows(const Problem& problem,
                                           ClusterState& state) const {
   for (std::size_t i = 1; i < place.size(); ++i) {
     for (std::uint32_t k = 0; k < 3; ++k, ++row) {
-      const auto part = [&](const PlacedNode& node, double value) {
-        return RowPart{row, node.rod, problem.places[node.node] + k * lane_count, 1, {value}};
+      const auto part = [&](const PlacedNode& node, std::uint32_t end, double value) {
+        return RowPart{row, node.rod, problem.places[node.node] + k * lane_count, 1, end, {value}};
       };
-      state.parts.push_back(part(place.front(), -1.0));
-      state.parts.push_back(part(place[i], 1.0));
+      state.parts.push_back(part(place.front(), 0, -1.0));
+      state.parts.push_back(part(place[i], 1, 1.0));
     }
   }
   return row;
@@ -112,7 +113,7 @@ void JointSolver::add_derivatives(const Problem& problem, const Rods& rods,
       const Weld& weld = problem.parts.welds[index];
       const WeldStrain strain(weld, rods, rods);
       const WeldStrain::Derivatives found = strain.derivatives();
-      for (std::size_t i = 0; i < 2; ++i) {
+      for (std::uint32_t i = 0; i < 2; ++i) {
         const std::uint32_t rod = weld.edges[i].rod;
         const std::uint32_t edge = weld.edges[i].edge;
         RodSystem& system = *systems[rod];
@@ -128,6 +129,7 @@ void JointSolver::add_derivatives(const Problem& problem, const Rods& rods,
                        rod,
                        problem.places[edge],
                        has_twist ? 7U : 6U,
+                       i,
                        {}};
           Eigen::Map<ByEdge<1>>(part.values.data()) = found.rows[i].row(r);
           state.parts.push_back(part);
@@ -135,10 +137,9 @@ void JointSolver::add_derivatives(const Problem& problem, const Rods& rods,
       }
       row += static_cast<std::uint32_t>(strain.row_count());
     }
-    std::stable_sort(state.parts.begin(), state.parts.end(),
-                     [](const RowPart& a, const RowPart& b) {
-                       return std::make_pair(a.rod, a.row) < std::make_pair(b.rod, b.row);
-                     });
+    std::sort(state.parts.begin(), state.parts.end(), [](const RowPart& a, const RowPart& b) {
+      return std::tie(a.rod, a.row, a.end) < std::tie(b.rod, b.row, b.end);
+    });
     state.matrix.setZero(row, row);
     state.matrix.diagonal().tail(row - constraints).setOnes();
   }
@@ -179,7 +180,11 @@ void JointSolver::unite_gradients(const Problem& problem, const Rods& rods,
 
 /// Finds which parts belong to one column, by pack and rod.
 void JointSolver::find_columns(const Problem& problem) {
-  columns_.assign(problem.offsets.size(), {});
+  columns_.resize(problem.offsets.size());
+  for (PackColumns& pack : columns_) {
+    pack.rods.clear();
+    pack.columns.clear();
+  }
   for (std::uint32_t cluster = 0; cluster < states_.size(); ++cluster) {
     const std::vector<RowPart>& parts = states_[cluster].parts;
     for (std::size_t begin = 0; begin < parts.size();) {
@@ -188,11 +193,13 @@ void JointSolver::find_columns(const Problem& problem) {
              parts[end].row == parts[begin].row) {
         ++end;
       }
-      std::vector<RodColumns>& rods = columns_[problem.packs[parts[begin].rod]];
-      if (rods.empty() || rods.back().rod != parts[begin].rod) {
-        rods.push_back({parts[begin].rod, {}});
+      PackColumns& pack = columns_[problem.packs[parts[begin].rod]];
+      const std::size_t index = pack.columns.size();
+      if (pack.rods.empty() || pack.rods.back().rod != parts[begin].rod) {
+        pack.rods.push_back({parts[begin].rod, index, index});
       }
-      rods.back().columns.push_back({cluster, begin, end});
+      pack.columns.push_back({cluster, begin, end});
+      ++pack.rods.back().end;
       begin = end;
     }
   }
@@ -203,29 +210,31 @@ void JointSolver::find_columns(const Problem& problem) {
 void JointSolver::factorise(const Problem& problem, const std::vector<PackStep>& packs) {
   find_columns(problem);
   for (std::size_t pack = 0; pack < packs.size(); ++pack) {
+    const auto& [rods, columns] = columns_[pack];
     std::size_t count = 0;
-    for (const RodColumns& rod : columns_[pack]) {
-      count = std::max(count, rod.columns.size());
+    for (const RodColumns& rod : rods) {
+      count = std::max(count, rod.count());
     }
     column_.resize(packs[pack].step_size());
     double* const values = column_.data()->lanes.data();
     const std::size_t begin = problem.offsets[pack] * lane_count;
     for (std::size_t i = 0; i < count; ++i) {
       std::fill(column_.begin(), column_.end(), SimdBatch{});
-      for (const RodColumns& rod : columns_[pack]) {
-        if (i < rod.columns.size()) {
-          const Column& column = rod.columns[i];
+      for (const RodColumns& rod : rods) {
+        if (i < rod.count()) {
+          const Column& column = columns[rod.begin + i];
           for (std::size_t part = column.begin; part < column.end; ++part) {
             states_[column.cluster].parts[part].add_to(values, begin, 1.0);
           }
         }
       }
       solve_band(packs[pack].system(), column_.data());
-      for (const RodColumns& rod : columns_[pack]) {
-        if (i < rod.columns.size()) {
-          ClusterState& state = states_[rod.columns[i].cluster];
-          const std::uint32_t by = state.parts[rod.columns[i].begin].row;
-          for (std::size_t part = rod.columns[i].begin; part < rod.columns.back().end; ++part) {
+      for (const RodColumns& rod : rods) {
+        if (i < rod.count()) {
+          const Column& column = columns[rod.begin + i];
+          ClusterState& state = states_[column.cluster];
+          const std::uint32_t by = state.parts[column.begin].row;
+          for (std::size_t part = column.begin; part < columns[rod.end - 1].end; ++part) {
             state.matrix(state.parts[part].row, by) += state.parts[part].product(values, begin);
           }
         }
@@ -247,13 +256,13 @@ void JointSolver::solve(const Problem& problem, const std::vector<PackStep>& pac
     for (const RowPart& part : state.parts) {
       state.values[part.row] += part.product(all, 0);
     }
-    state.values = state.factors.solve(state.values).eval();
+    state.factors.solveInPlace(state.values);
     for (const RowPart& part : state.parts) {
       part.add_to(right_side, 0, -state.values[part.row]);
     }
   }
   for (std::size_t pack = 0; pack < packs.size(); ++pack) {
-    if (!columns_[pack].empty()) {
+    if (!columns_[pack].rods.empty()) {
       const std::size_t first = problem.offsets[pack];
       const std::size_t size = packs[pack].step_size();
       solve_band(packs[pack].system(), &right_sides_[first]);

@@ -85,6 +85,7 @@ class JointSolver {
     std::uint32_t rod;
     std::size_t first;  // place of the first of these unknowns in all packs
     std::size_t count;  // of these unknowns
+    std::uint32_t end;  // which of the parts that the row has, where several are in the rod
     std::array<double, 7> values;
 
     /// @param begin the place of the first of some values in all packs
@@ -107,10 +108,19 @@ class JointSolver {
     std::size_t end;
   };
 
-  /// The columns of B⁻¹ Gᵀ that a rod has.
+  /// Columns begin … end - 1 of a pack: those of B⁻¹ Gᵀ that a rod has.
   struct RodColumns {
     std::uint32_t rod;
-    std::vector<Column> columns;
+    std::size_t begin;
+    std::size_t end;
+
+    std::size_t count() const { return end - begin; }
+  };
+
+  /// The columns of the rods of a pack.
+  struct PackColumns {
+    std::vector<RodColumns> rods;
+    std::vector<Column> columns;  // by rod
   };
 
   std::uint32_t add_place_rows(const Problem& problem, const std::vector<PlacedNode>& place,
@@ -123,11 +133,11 @@ class JointSolver {
   std::vector<EnergySum> energies_;  // by cluster
   std::vector<double> stored_;       // by cluster
   std::vector<NodeForce> forces_;
-  std::vector<double> masses_;                    // of joined nodes, as forces_
-  std::vector<ClusterState> states_;              // by cluster
-  std::vector<std::vector<RodColumns>> columns_;  // by pack
-  std::vector<SimdBatch> right_sides_;            // of all packs
-  std::vector<SimdBatch> column_;                 // of all packs
+  std::vector<double> masses_;          // of joined nodes, as forces_
+  std::vector<ClusterState> states_;    // by cluster
+  std::vector<PackColumns> columns_;    // by pack
+  std::vector<SimdBatch> right_sides_;  // of all packs
+  std::vector<SimdBatch> column_;       // of all packs
 };
 
 }  // namespace fiber

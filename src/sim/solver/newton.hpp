@@ -151,14 +151,22 @@ class NewtonSolver {
   bool has_impacts_ = false;
   std::vector<std::uint32_t> stuck_objects_;
   double stuck_progress_ = 1.0;
-  std::vector<double> drives_;         // of obstacles, by island [J]
-  std::vector<double> obstacle_work_;  // in the solve, by island [J]
-  std::vector<double> stored_;         // energy at the end of the solve, by island [J]
-  std::vector<double> max_kinetic_;    // energy after impacts, by island [J]
-  std::vector<double> trial_shares_;   // of the step, by island: bounds, then those accepted
+  std::vector<double> drives_;                             // of obstacles, by island [J]
+  std::vector<ContactSet::MotionEnergy> motion_energies_;  // by island
+  std::vector<double> obstacle_work_;                      // in the solve, by island [J]
+  std::vector<double> stored_;        // energy at the end of the solve, by island [J]
+  std::vector<double> max_kinetic_;   // energy after impacts, by island [J]
+  std::vector<double> trial_shares_;  // of the step, by island: bounds, then those accepted
   std::vector<SimdBatch> step_;
 
-  // Buffers of correct_short_steps(), so that a step allocates nothing: by island, and by pack.
+  // Buffers, so that a step allocates nothing. Those of move_obstacles() and update_friction(), by
+  // island:
+  std::vector<double> ways_left_;
+  std::vector<double> progress_before_;
+  std::vector<EnergySum> energies_before_;
+  std::vector<bool> has_new_friction_;
+
+  // Those of correct_short_steps(), by island and by pack:
   std::vector<bool> is_short_;
   std::vector<bool> is_lower_;
   std::vector<IslandState> states_before_;

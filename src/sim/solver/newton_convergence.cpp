@@ -107,14 +107,14 @@ void NewtonSolver::update_friction(const Rods& rods, const Problem& problem) {
   if (problem.friction == nullptr) {
     return;
   }
-  std::vector<bool> which;
+  has_new_friction_.clear();
   for (std::size_t i = 0; i < states_.size(); ++i) {
     IslandState& state = states_[i];
     state.has_friction_of_now =
         state.is_active && reports_[i].residual <= near_convergence * problem.options.residual;
-    which.push_back(state.has_friction_of_now);
+    has_new_friction_.push_back(state.has_friction_of_now);
   }
-  problem.contacts->update_friction(rods, scratch_->islands, which);
+  problem.contacts->update_friction(rods, scratch_->islands, has_new_friction_);
   sum_energies(problem);
 }
 

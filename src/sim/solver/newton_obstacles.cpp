@@ -27,7 +27,8 @@ bool NewtonSolver::move_obstacles(Rods& rods, const Problem& problem) {
     return true;
   }
   begin_drives(rods, problem);
-  std::vector<double> left(states_.size(), 1.0);  // when patience began
+  std::vector<double>& left = ways_left_;  // when patience began
+  left.assign(states_.size(), 1.0);
   for (int round = 0;; ++round) {
     bool is_any_moving = false;
     for (std::size_t i = 0; i < states_.size(); ++i) {
@@ -64,7 +65,8 @@ bool NewtonSolver::move_obstacles(Rods& rods, const Problem& problem) {
 
 /// What brings the rods of each island to the speed of the fastest obstacle that they may reach.
 void NewtonSolver::begin_drives(const Rods& rods, const Problem& problem) {
-  std::vector<double> ways(states_.size(), 0.0);
+  std::vector<double>& ways = ways_left_;
+  ways.assign(states_.size(), 0.0);
   problem.contacts->add_longest_ways(rods, scratch_->islands, ways);
   drives_.assign(states_.size(), 0.0);
   for (const std::uint32_t rod : members_) {
@@ -82,12 +84,12 @@ void NewtonSolver::begin_drives(const Rods& rods, const Problem& problem) {
 ///   g·s + e + ½ (s·H s − 2 s·C d + d·C d),
 /// and H s = C d − g. The predicted decrease is −(g − C d)·s.
 void NewtonSolver::raise_drives(const Rods& rods, const Problem& problem) {
-  std::vector<ContactSet::MotionEnergy> by_island(states_.size());
+  motion_energies_.assign(states_.size(), ContactSet::MotionEnergy{});
   problem.contacts->add_motion_energies(rods, scratch_->displacements, scratch_->islands,
-                                        by_island);
+                                        motion_energies_);
   for (std::size_t i = 0; i < states_.size(); ++i) {
     if (states_[i].is_active) {
-      const ContactSet::MotionEnergy& motion = by_island[i];
+      const ContactSet::MotionEnergy& motion = motion_energies_[i];
       const double decrease = states_[i].predicted_decrease;
       const double linear = motion.mixed - decrease + motion.slope;
       const double quadratic = 0.5 * (decrease - 2.0 * motion.mixed + motion.square);
@@ -113,8 +115,9 @@ void NewtonSolver::keep_stuck(const MovedShapes& moved) {
 void NewtonSolver::move_with_obstacles(Rods& rods, const Problem& problem) {
   constexpr int max_halvings = 60;
   MovedShapes& moved = *problem.contacts->moved_shapes();
-  const std::vector<EnergySum> energies_before = energies_;
-  std::vector<double> before;
+  energies_before_ = energies_;
+  std::vector<double>& before = progress_before_;
+  before.clear();
   for (std::size_t i = 0; i < states_.size(); ++i) {
     before.push_back(moved.progress(i));
     trial_shares_[i] = states_[i].is_active ? trial_shares_[i] : 0.0;
@@ -135,8 +138,8 @@ void NewtonSolver::move_with_obstacles(Rods& rods, const Problem& problem) {
       const double left = 1.0 - before[i];
       const double left_now = 1.0 - moved.progress(i);
       const double driven = drives_[i] * (left * left - left_now * left_now);
-      const bool is_lower =
-          energies_[i].energy <= energies_before[i].energy + driven + energies_before[i].roundoff();
+      const bool is_lower = energies_[i].energy <=
+                            energies_before_[i].energy + driven + energies_before_[i].roundoff();
       if (trial_shares_[i] > 0.0 && !is_lower) {
         trial_shares_[i] = halvings < max_halvings ? 0.5 * trial_shares_[i] : 0.0;
         has_risen = true;

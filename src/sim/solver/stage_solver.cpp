@@ -141,8 +141,13 @@ void StageSolver::find_contacts(Rods& rods) {
 }
 
 /// Rods that are islands of their own are solved for side by side, as many as a pack has lanes;
-/// others with their island. A group that has the same rods as before stays as it is.
+/// others with their island. A group that has the same rods as before stays as it is, and so do all
+/// of them, with their memory, while islands are the same.
 void StageSolver::make_groups(const Rods& rods) {
+  if (!groups_.empty() && grouped_ == islands_) {
+    return;
+  }
+  grouped_ = islands_;
   std::vector<std::vector<std::uint32_t>> members(rods.count());
   for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
     members[islands_.root(rod)].push_back(rod);
@@ -244,8 +249,10 @@ void StageSolver::solve_group(Rods& rods, const Effects& effects, double step, G
   group.is_solved = gain.has_value();
   group.stored_gain = gain.value_or(0.0);
   group.has_impacts = solver->has_impacts();
-  group.joint_forces =
-      group.joints.empty() ? std::vector<JointSolver::NodeForce>{} : solver->joint_forces();
+  group.joint_forces.clear();
+  if (!group.joints.empty()) {
+    group.joint_forces = solver->joint_forces();
+  }
   group.reports = solver->reports();
   group.needed_travel = solver->step_bound().needed();
   group.stuck_objects = solver->stuck_objects();

@@ -38,6 +38,15 @@ class Islands {
     return rod;
   }
 
+  /// Whether the same rods are together.
+  bool operator==(const Islands& other) const {
+    bool is_same = parents_.size() == other.parents_.size();
+    for (std::uint32_t rod = 0; is_same && rod < parents_.size(); ++rod) {
+      is_same = root(rod) == other.root(rod);
+    }
+    return is_same;
+  }
+
  private:
   std::vector<std::uint32_t> parents_;  // by rod, never greater
 };
@@ -121,6 +130,7 @@ class StageSolver {
   tbb::task_arena arena_;
   Islands islands_;
   std::vector<Group> groups_;
+  Islands grouped_;                      // those that these groups are of
   std::vector<std::uint32_t> group_of_;  // by rod
   SolverScratch scratch_;
   std::vector<ContactSet> found_by_;  // by source

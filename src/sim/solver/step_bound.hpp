@@ -50,16 +50,16 @@ class StepBound {
              std::vector<Eigen::Vector3d>& ends) {
     contacts.bound_step(rods, displacements, islands, shares, ends);
     // The part of the expected displacements that a step is, by least squares.
-    std::vector<double> along(shares.size(), 0.0);
-    std::vector<double> squares(shares.size(), 0.0);
+    along_.assign(shares.size(), 0.0);
+    squares_.assign(shares.size(), 0.0);
     for (const std::uint32_t rod : members) {
       for (std::uint32_t i = rods.first(rod); i < rods.end(rod); ++i) {
-        along[islands[rod]] += displacements[i].dot(travel_bound_->expected[i]);
-        squares[islands[rod]] += travel_bound_->expected[i].squaredNorm();
+        along_[islands[rod]] += displacements[i].dot(travel_bound_->expected[i]);
+        squares_[islands[rod]] += travel_bound_->expected[i].squaredNorm();
       }
     }
     for (std::size_t k = 0; k < shares.size(); ++k) {
-      const double rate = squares[k] > 0.0 ? along[k] / squares[k] : 0.0;
+      const double rate = squares_[k] > 0.0 ? along_[k] / squares_[k] : 0.0;
       rates_[k] = std::clamp(progress_[k] + rate, 0.0, 1.0) - progress_[k];
     }
     bool is_within_bound = true;
@@ -132,6 +132,8 @@ class StepBound {
   std::vector<double> progress_;  // along the expected displacements, by island
   std::vector<double> rates_;     // change of the progress by a whole step
   std::vector<std::pair<std::uint32_t, double>> needed_;
+  std::vector<double> along_;    // buffer: by island
+  std::vector<double> squares_;  // buffer: by island
 };
 
 }  // namespace fiber
