@@ -42,6 +42,30 @@ class Device(unittest.TestCase):
             for name in 's', 't', 'distance':
                 np.testing.assert_array_equal(arrays[name], expected[name])
 
+    def test_checks_candidates_as_check_does(self):
+        candidates = [walks(100 + seed, 4, 30)[0] for seed in range(40)]
+        still, _ = walks(99, 3, 30)
+        points = np.concatenate(candidates + [still])
+        offsets = np.arange(0, len(points) + 1, 30)
+        proximity = fp.DeviceProximity(offsets, 0.001, device='host', candidates=np.arange(0, 161, 4))
+        proximity.update(points)
+        engine = fp.Engine(fp.Fibers(still, [0, 30, 60, 90], 0.001))
+        batch = np.array(candidates).reshape(40, 4, 30, 3)
+        for with_itself in True, False:
+            free = engine.check(batch, radii=0.001, with_itself=with_itself).free
+            touching = proximity.check_candidates(with_itself=with_itself)
+            self.assertEqual(touching.dtype, bool)
+            np.testing.assert_array_equal(touching, ~free)
+            self.assertTrue(0 < np.count_nonzero(touching) < 40, touching)
+        expected = engine.check(batch, radii=0.001, type='all', neighbour_skip=1).contacts['candidate']
+        found = proximity.query().to_host()
+        np.testing.assert_array_equal(np.diff(found['candidate_begins']), np.bincount(expected, minlength=40))
+        with self.assertRaisesRegex(ValueError, r'candidates\[1\] is 500'):
+            fp.DeviceProximity(offsets, 0.001, device='host', candidates=[0, 500])
+        points[31, 2] = np.nan
+        with self.assertRaisesRegex(ValueError, 'candidate 0, its point 31: z is nan'):
+            proximity.update(OnDevice(points))
+
     def test_takes_points_of_the_host(self):
         points, offsets = walks(2)
         proximity = fp.DeviceProximity(offsets, 0.01, device='host')
