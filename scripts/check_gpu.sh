@@ -37,6 +37,7 @@ esac
 
 programs=(cuda_tree_test query_test hard_scenes_test accuracy_test contact_limit_test concurrent_queries_test
   fiber_graph_test fiber_bench)
+[ "$only" != candidates ] || programs=(cuda_tree_test fiber_bench)
 
 # Cables beside each other, 330 segments a copy, and fibres anywhere, 1000000: from how many on a GPU pays.
 sizes="cables --copies 1

@@ -8,7 +8,6 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -16,8 +15,8 @@
 #include "fiber_proximity/environment/check_fibers.hpp"
 #include "fiber_proximity/query/engine.hpp"
 #include "src/cuda/device.hpp"
-#include "test/support/answers.hpp"
 #include "test/support/assemblies.hpp"
+#include "test/support/candidate_batch.hpp"
 #include "test/support/contacts.hpp"
 #include "test/support/cuda_tree.hpp"
 #include "test/support/error_of.hpp"
@@ -29,109 +28,19 @@ namespace {
 
 using Options = DeviceProximity::Options;
 
-/// Candidates, assemblies of their own, and fibres that stand still, as DeviceProximity takes them.
-struct Batch {
-  std::vector<FiberAssembly> candidates;
-  FiberAssembly still;
-
-  std::vector<Eigen::Vector3d> points;
-  std::vector<std::uint32_t> offsets{0};
-  std::vector<double> radii;
-  std::vector<std::uint32_t> begins{0};
-  std::vector<std::uint32_t> first_points;
-
-  Batch(std::vector<FiberAssembly> all, FiberAssembly standing)
-      : candidates(std::move(all)), still(std::move(standing)) {
-    const auto has_many = [](const FiberAssembly& fibers) {
-      return fibers.radius_per() == RadiusPer::POINT;
-    };
-    const bool per_point =
-        has_many(still) || std::any_of(candidates.begin(), candidates.end(), has_many);
-    for (const FiberAssembly& candidate : candidates) {
-      first_points.push_back(static_cast<std::uint32_t>(points.size()));
-      add(candidate, per_point);
-      begins.push_back(static_cast<std::uint32_t>(offsets.size()) - 1);
-    }
-    first_points.push_back(static_cast<std::uint32_t>(points.size()));
-    add(still, per_point);
-    if (radii.empty()) {
-      radii = {0.0};
-    }
-  }
-
-  std::unique_ptr<DeviceProximity> make() const {
-    return std::make_unique<DeviceProximity>(make_test_device(), offsets, radii, begins);
-  }
-
- private:
-  void add(const FiberAssembly& fibers, bool per_point) {
-    const auto first = static_cast<std::uint32_t>(points.size());
-    points.insert(points.end(), fibers.points().begin(), fibers.points().end());
-    for (std::size_t fiber = 0; fiber < fibers.fiber_count(); ++fiber) {
-      const std::uint32_t begin = fibers.offsets()[fiber];
-      const std::uint32_t end = fibers.offsets()[fiber + 1];
-      offsets.push_back(first + end);
-      for (std::uint32_t point = begin; point < (per_point ? end : begin + 1); ++point) {
-        radii.push_back(fibers.radius_at(fiber, point));
-      }
-    }
-  }
-};
-
-struct Found {
-  std::uint32_t a;
-  std::uint32_t b;
-  double s;
-  double t;
-  double distance;
-
-  bool operator==(const Found& other) const {
-    return std::tie(a, b, s, t, distance) ==
-           std::tie(other.a, other.b, other.s, other.t, other.distance);
-  }
-};
-
-/// What brute force finds of a candidate that is alone with the fibres that stand still.
-std::vector<Found> expected_of(const Batch& batch, std::size_t candidate, const Options& options) {
-  const FiberAssembly& fibers = batch.candidates[candidate];
-  QueryOptions same = within(options.margin);
-  same.neighbour_skip = options.neighbour_skip;
-  same.pairing = options.pairing;
-  std::vector<Found> all;
-  const auto first_of = [](const FiberAssembly& of, std::uint32_t fiber, std::uint32_t segment) {
-    return of.offsets()[fiber] + segment;
-  };
-  const auto add = [&](const Contact& contact, const FiberAssembly& other, std::uint32_t first) {
-    all.push_back(
-        {batch.first_points[candidate] + first_of(fibers, contact.fiber_a, contact.segment_a),
-         first + first_of(other, contact.fiber_b, contact.segment_b), contact.s, contact.t,
-         contact.distance});
-  };
-  if (options.with_itself) {
-    for (const Contact& contact : brute_force(fibers, same).contacts) {
-      add(contact, fibers, batch.first_points[candidate]);
-    }
-  }
-  for (const Contact& contact : brute_force(fibers, batch.still, same).contacts) {
-    add(contact, batch.still, batch.first_points.back());
-  }
-  std::sort(all.begin(), all.end(),
-            [](const Found& x, const Found& y) { return std::tie(x.a, x.b) < std::tie(y.a, y.b); });
-  return all;
-}
-
 /// @param found arrays of contacts on the host
 /// @return how many there are
 template <class Arrays>
-std::size_t expect_candidates(const Arrays& found, std::size_t count, const Batch& batch,
+std::size_t expect_candidates(const Arrays& found, std::size_t count, const CandidateBatch& batch,
                               const Options& options) {
   std::size_t next = 0;
   for (std::size_t candidate = 0; candidate < batch.candidates.size(); ++candidate) {
     EXPECT_EQ(found.candidate_begins[candidate], next) << "candidate " << candidate;
-    for (const Found& contact : expected_of(batch, candidate, options)) {
-      const Found here = next < count ? Found{found.a[next], found.b[next], found.s[next],
-                                              found.t[next], found.distance[next]}
-                                      : Found{};
+    for (const FoundContact& contact : contacts_of(batch, candidate, options)) {
+      const FoundContact here = next < count
+                                    ? FoundContact{found.a[next], found.b[next], found.s[next],
+                                                   found.t[next], found.distance[next]}
+                                    : FoundContact{};
       EXPECT_TRUE(here == contact) << "candidate " << candidate << ", contact " << next;
       if (testing::Test::HasFailure()) {
         return 0;
@@ -146,7 +55,7 @@ std::size_t expect_candidates(const Arrays& found, std::size_t count, const Batc
 
 /// Whether candidates touch, as check_fibers() says it.
 /// @return how many do
-std::size_t expect_touching(const DeviceProximity& device, const Batch& batch,
+std::size_t expect_touching(const DeviceProximity& device, const CandidateBatch& batch,
                             const Options& options) {
   const std::unique_ptr<ProximityEngine> engine = make_engine("run_tree");
   engine->update(batch.still);
@@ -171,7 +80,7 @@ std::size_t expect_touching(const DeviceProximity& device, const Batch& batch,
 }
 
 /// A few of a family, some of them twice and some without any fibre.
-Batch some_of(const AssemblyFamily& family, Random& random) {
+CandidateBatch some_of(const AssemblyFamily& family, Random& random) {
   std::vector<FiberAssembly> candidates;
   const int count = random.integer(0, 8);
   for (int i = 0; i < count; ++i) {
@@ -186,7 +95,7 @@ Batch some_of(const AssemblyFamily& family, Random& random) {
   return {candidates, random.chance(0.3) ? FiberAssembly() : family.make(random)};
 }
 
-Options some_options(const Batch& batch, Random& random) {
+Options some_options(const CandidateBatch& batch, Random& random) {
   double extent = 0.0;
   for (const FiberAssembly& candidate : batch.candidates) {
     extent = std::max(extent, candidate.point_count() == 0 ? 0.0 : extent_of(candidate));
@@ -207,7 +116,7 @@ TEST(Candidates, OfAllFamiliesAreAlone) {
   for (int round = 0; round < rounds(10); ++round) {
     for (const AssemblyFamily& family : assembly_families()) {
       SCOPED_TRACE(family.name);
-      const Batch batch = some_of(family, random);
+      const CandidateBatch batch = some_of(family, random);
       const std::unique_ptr<DeviceProximity> device = batch.make();
       ASSERT_EQ(device->candidate_count(), batch.candidates.size());
       device->update_from_host(batch.points);
@@ -241,7 +150,7 @@ TEST(Candidates, ThousandsThatOverlapAreAlone) {
                                : walks(random, random.integer(1, 3), random.integer(1, 12), 0.2,
                                        random.uniform(0.0, 0.05)));
   }
-  const Batch batch(candidates, walks(random, 10, 20, 0.1, 0.005));
+  const CandidateBatch batch(candidates, walks(random, 10, 20, 0.1, 0.005));
   const std::unique_ptr<DeviceProximity> device = batch.make();
   for (int frame = 0; frame < 2; ++frame) {
     device->update_from_host(batch.points);
@@ -266,7 +175,8 @@ TEST(Candidates, OfAnySizeAreAlone) {
   candidates.push_back(walks(random, 30, rounds_less > 1 ? 10 : 60, 0.05, 0.05));
   candidates.push_back(walks(random, 1, 1, 0.1, 0.02));
   for (const bool has_still : {false, true}) {
-    const Batch batch(candidates, has_still ? walks(random, 2, 40, 0.1, 0.01) : FiberAssembly());
+    const CandidateBatch batch(candidates,
+                               has_still ? walks(random, 2, 40, 0.1, 0.01) : FiberAssembly());
     const std::unique_ptr<DeviceProximity> device = batch.make();
     device->update_from_host(batch.points);
     const Options options{0.02, 1};
@@ -287,20 +197,9 @@ TEST(Candidates, NeedLoopsWhereTheRuleSaysSo) {
   for (int round = 0; round < rounds(20); ++round) {
     std::vector<FiberAssembly> candidates;
     for (int i = 0; i < 30; ++i) {
-      const double radius = random.uniform(0.005, 0.06);
-      const double bend = random.uniform(0.0, 1.0);
-      Eigen::Vector3d point = random.in_cube();
-      Eigen::Vector3d heading = random.direction();
-      const Eigen::Vector3d turn = random.direction();
-      std::vector<Eigen::Vector3d> points;
-      for (int k = 0; k < 25; ++k) {
-        points.push_back(point);
-        point += random.uniform(0.02, 0.06) * heading;
-        heading = (heading + bend * turn.cross(heading) + 0.1 * random.direction()).normalized();
-      }
-      candidates.push_back(as_fibers({points}, radius));
+      candidates.push_back(coil(random));
     }
-    const Batch batch(candidates, FiberAssembly());
+    const CandidateBatch batch(candidates, FiberAssembly());
     const std::unique_ptr<DeviceProximity> device = batch.make();
     device->update_from_host(batch.points);
     Options options{random.chance(0.5) ? 0.0 : 0.02, std::nullopt};
