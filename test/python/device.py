@@ -43,14 +43,16 @@ class Device(unittest.TestCase):
                 np.testing.assert_array_equal(arrays[name], expected[name])
 
     def test_checks_candidates_as_check_does(self):
-        candidates = [walks(100 + seed, 4, 30)[0] for seed in range(40)]
-        still, _ = walks(99, 3, 30)
-        points = np.concatenate(candidates + [still])
+        # Each fibre from a place of its own on.
+        places = np.random.default_rng(5).uniform(-0.3, 0.3, (163, 1, 3))
+        fibers = places + walks(100, 163, 30)[0].reshape(163, 30, 3)
+        candidates, still = fibers[:160].reshape(40, 120, 3), fibers[160:].reshape(90, 3)
+        points = np.concatenate([candidates.reshape(-1, 3), still])
         offsets = np.arange(0, len(points) + 1, 30)
         proximity = fp.DeviceProximity(offsets, 0.001, device='host', candidates=np.arange(0, 161, 4))
         proximity.update(points)
         engine = fp.Engine(fp.Fibers(still, [0, 30, 60, 90], 0.001))
-        batch = np.array(candidates).reshape(40, 4, 30, 3)
+        batch = candidates.reshape(40, 4, 30, 3)
         for with_itself in True, False:
             free = engine.check(batch, radii=0.001, with_itself=with_itself).free
             touching = proximity.check_candidates(with_itself=with_itself)
