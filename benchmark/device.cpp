@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "benchmark/commands.hpp"
+#include "benchmark/device_candidates.hpp"
 #include "benchmark/measured_scene.hpp"
 #include "benchmark/measurement.hpp"
 #include "benchmark/options.hpp"
@@ -25,6 +26,7 @@ struct DeviceRequest {
   std::uint32_t threads = 1;
   std::uint32_t repeats = 11;
   bool json = false;
+  CandidateRequest candidates{0};
 };
 
 /// Times of frames [ms].
@@ -85,6 +87,14 @@ void print(const DeviceRequest& request, const FiberAssembly& fibers, std::size_
 }
 
 ExitCode run_device(const DeviceRequest& request) {
+  if (request.candidates.count > 0) {
+    CandidateRequest candidates = request.candidates;
+    candidates.device = request.device;
+    candidates.threads = request.threads;
+    candidates.repeats = request.repeats;
+    candidates.json = request.json;
+    return measure_candidates(candidates);
+  }
   Progress progress;
   const Scene scene = measured_scene(request.scene, request.scene_options);
   FiberAssembly fibers = scene(0);
@@ -155,7 +165,14 @@ void add_device_command(CLI::App& app, Command& command) {
   add_value(*subcommand, "--device", request->device,
             "the GPU, or its kernels as loops on the host, to try things",
             CLI::IsMember({"gpu", "host"}));
-  add_count(*subcommand, "--threads", request->threads, "of run_tree");
+  CandidateRequest& candidates = request->candidates;
+  add_count(*subcommand, "--candidates", candidates.count,
+            "in place of a scene: so many candidates of a planner, beside check_fibers()", 0);
+  add_count(*subcommand, "--cables", candidates.cables, "of each candidate");
+  add_count(*subcommand, "--points", candidates.points, "of each of these cables", 2);
+  add_count(*subcommand, "--still", candidates.still, "cables that stand still among them", 0);
+  add_value(*subcommand, "--radius", candidates.radius, "of these cables [m]", length());
+  add_count(*subcommand, "--threads", request->threads, "of run_tree, or check_fibers()");
   add_count(*subcommand, "--repeats", request->repeats, "frames to measure");
   subcommand->add_flag("--json", request->json, "JSON Lines instead of a table");
 }

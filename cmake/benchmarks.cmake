@@ -3,7 +3,7 @@
 include(cmake/peers.cmake)
 fiber_proximity_tool(fiber_bench benchmark/fiber_bench.cpp
   benchmark/accuracy.cpp benchmark/accuracy_settings.cpp benchmark/agreement.cpp
-  benchmark/coherence.cpp benchmark/copies.cpp benchmark/device.cpp
+  benchmark/coherence.cpp benchmark/copies.cpp benchmark/device.cpp benchmark/device_candidates.cpp
   benchmark/environment.cpp benchmark/environment/arm.cpp benchmark/environment/camera_cloud.cpp
   benchmark/environment/capsule_mesh.cpp benchmark/environment/cell.cpp
   benchmark/environment/cell_difference.cpp benchmark/environment/fcl_checker.cpp

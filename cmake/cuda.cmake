@@ -18,6 +18,7 @@ else()
 endif()
 
 add_library(fiber_proximity_cuda SHARED
+  src/cuda/check_candidates.cpp
   src/cuda/cuda_engines.cpp
   src/cuda/cuda_tree_engine.cpp
   src/cuda/device_fibers.cpp

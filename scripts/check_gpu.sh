@@ -1,14 +1,16 @@
 #!/usr/bin/env bash
 # Builds what a check of the GPU engine needs, packs it with all that it loads, and runs it where a GPU is: tests of
 # engines, the same answers as on the processor byte by byte, compute-sanitizer, times. Writes one report.
-#   scripts/check_gpu.sh [--pack FOLDER | --run FOLDER] [--only tests|times] [--out DIR] [--verbose]
+#   scripts/check_gpu.sh [--pack FOLDER | --run FOLDER] [--only tests|times|candidates] [--out DIR] [--verbose]
 #     --pack FOLDER  build and pack only: the folder then runs on any 64-bit Linux with a GPU, with nothing installed
 #     --run FOLDER   run what lies packed there
-#     --only WHAT    of the two halves: tests, or times on the eight scenes of the paper
-#     --out DIR      where report.md, times.jsonl and sizes.jsonl go (default: gpu/report in the build's folder)
+#     --only WHAT    of the two halves: tests, or times on the eight scenes of the paper and of batches of candidates;
+#                    or candidates: tests and times of these alone
+#     --out DIR      where report.md, times.jsonl, sizes.jsonl and candidates.jsonl go (default: gpu/report in the
+#                    build's folder)
 set -euo pipefail
 
-usage="usage: scripts/check_gpu.sh [--pack FOLDER | --run FOLDER] [--only tests|times] [--out DIR] [--verbose]"
+usage="usage: scripts/check_gpu.sh [--pack FOLDER | --run FOLDER] [--only tests|times|candidates] [--out DIR] [--verbose]"
 pack=
 run=
 out=
@@ -29,12 +31,13 @@ while [ $# -gt 0 ]; do
 done
 
 case "$only" in
-  '' | tests | times) ;;
-  *) echo "check_gpu.sh: --only takes 'tests' or 'times', not '$only'; $usage" >&2; exit 2 ;;
+  '' | tests | times | candidates) ;;
+  *) echo "check_gpu.sh: --only takes 'tests', 'times' or 'candidates', not '$only'; $usage" >&2; exit 2 ;;
 esac
 
 programs=(cuda_tree_test query_test hard_scenes_test accuracy_test contact_limit_test concurrent_queries_test
   fiber_graph_test fiber_bench)
+[ "$only" != candidates ] || programs=(cuda_tree_test fiber_bench)
 
 # Cables beside each other, 330 segments a copy, and fibres anywhere, 1000000: from how many on a GPU pays.
 sizes="cables --copies 1
@@ -49,6 +52,14 @@ soup --scale 0.01
 soup --scale 0.03
 soup --scale 0.1
 soup --scale 0.3"
+
+batches="10000
+10000 --still 0
+10000 --radius 0.01
+1000
+100
+10
+10000 --cables 1"
 
 # pack_programs FOLDER: programs, the libraries they load and the loader, without symbols.
 pack_programs() {
@@ -93,6 +104,11 @@ run_tests_there() {
   step concurrent here concurrent_queries_test --gtest_filter='*/cuda_tree'
   step joined here fiber_graph_test --gtest_filter='*/cuda_tree'
   step hard_scenes here hard_scenes_test --gtest_filter='*/cuda_tree*'
+  sanitize_there '*TakesAnyNumber*:*AskedAgain*:DeviceProximity.Refuses*:ContactsToHost.Locked*:Candidates.AreRefused*'
+}
+
+# sanitize_there TESTS
+sanitize_there() {
   local sanitizer tool
   sanitizer=$(command -v compute-sanitizer || ls /usr/local/cuda/bin/compute-sanitizer 2>/dev/null || true)
   if [ -z "$sanitizer" ]; then
@@ -102,8 +118,25 @@ run_tests_there() {
   for tool in memcheck racecheck; do
     step $tool "$sanitizer" --tool $tool --error-exitcode 9 "$run/lib/ld-linux-x86-64.so.2" \
       --library-path "$run/lib:/usr/local/nvidia/lib64:/usr/lib/x86_64-linux-gnu" "$run/cuda_tree_test" \
-      --gtest_filter='*TakesAnyNumber*:*AskedAgain*:DeviceProximity.Refuses*:ContactsToHost.Locked*'
+      --gtest_filter="$1"
   done
+}
+
+test_candidates_there() {
+  export FIBER_PROXIMITY_TEST_GPU=1
+  step candidates here cuda_tree_test --gtest_filter='Candidates.*'
+}
+
+# Batches as planners have them: from how many on a GPU pays; with nothing that stands still; with many contacts.
+measure_candidates_there() {
+  local batch name
+  : >"$out/candidates.jsonl"
+  while read -r -a batch; do
+    name=$(IFS=_; echo "candidates_${batch[*]//--/}")
+    step "$name" here fiber_bench device --json --candidates "${batch[@]}" --threads "$(nproc)" \
+      --repeats 7 </dev/null
+    cat "$out/$name.log" >>"$out/candidates.jsonl"
+  done <<<"$batches"
 }
 
 measure_there() {
@@ -130,8 +163,10 @@ run_checks() {
     echo "# cuda_tree on a GPU"
     echo "$(nvidia-smi --query-gpu=name,driver_version --format=csv,noheader 2>/dev/null || echo 'no nvidia-smi'), $(nproc) cores ($(sed -n 's/^model name.*: //p' /proc/cpuinfo | head -1)), $(date +%F)"
   } >"$out/report.md"
-  [ "$only" = times ] || run_tests_there
-  [ "$only" = tests ] || measure_there
+  case "$only" in '' | tests) run_tests_there ;; candidates) test_candidates_there ;; esac
+  case "$only" in '' | times) measure_there ;; esac
+  [ "$only" = tests ] || measure_candidates_there
+  [ "$only" != candidates ] || sanitize_there 'Candidates.OfAnySize*:Candidates.AreRefused*'
   echo "check_gpu.sh: the report is $out/report.md"
   return $failed
 }

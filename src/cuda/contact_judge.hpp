@@ -53,6 +53,8 @@ class ContactJudge {
     send(executor, sent, found);
     return {found, host_.arrays()};
   }
+  /// The contacts on the device.
+  ContactArrays on_device() { return device_.arrays(); }
   void wait(Executor& executor) { executor.wait_for_sent(); }
 
   std::size_t memory_bytes() const { return judged_.bytes() + places_.bytes() + device_.bytes(); }

@@ -19,9 +19,11 @@ struct HostFibers {
   const double* radii = nullptr;
   double radius = 0.0;    ///< [m]
   double origin[3] = {};  ///< [m] that the tree is relative to
+  /// By candidate, and of what stands still; none where there are no candidates.
+  const std::vector<std::uint32_t>* candidate_points = nullptr;
 };
 
-/// Throws what names the first point that fibres may not have.
+/// Throws what names the first point that fibres may not have, and its candidate.
 /// @throws std::invalid_argument
 [[noreturn]] FIBER_PROXIMITY_EXPORT void refuse_points(const HostFibers& fibers);
 
@@ -29,12 +31,17 @@ struct HostFibers {
 struct HostTopology {
   std::vector<std::uint32_t> first_points;
   std::vector<std::uint32_t> fibers;  ///< by point
+  // Where there are candidates, as CandidateView has them.
+  std::vector<std::uint32_t> candidates_of_fibers;
+  std::vector<std::uint32_t> candidate_points;
+  std::vector<std::uint32_t> candidate_segments;
 };
 
 /// Contacts in memory of the device, or of the host.
 struct DeviceContacts {
   std::uint32_t count = 0;
   ContactArrays arrays = {};
+  const std::uint32_t* candidate_begins = nullptr;  ///< none where there are no candidates
 };
 
 /// A tree over the segments of fibres, on a device.
@@ -62,6 +69,7 @@ class DeviceTree {
   virtual const SegmentTreeView& view() const = 0;
   virtual const TreePoints& points() const = 0;
   virtual const std::uint32_t* fibers_by_point() const = 0;
+  virtual const CandidateView& candidates() const = 0;
   virtual std::size_t point_count() const = 0;
 
   /// [bytes] of the device
@@ -98,6 +106,21 @@ class Device {
   /// The same in page-locked memory of the host, until it is called again.
   virtual DeviceContacts contacts_to_host(const DeviceTree& tree, const PairRule& rule,
                                           double margin) = 0;
+
+  /// Which candidates of a tree have contacts.
+  /// @param needs_loops whether contacts of a fibre with itself are none without a loop
+  /// @param touching by candidate, 1 or 0
+  /// @param asked contacts of a fibre with itself that may have a loop, of candidates that are not
+  ///              known to touch anything else: their keys
+  /// @throws as contacts()
+  virtual void touching(const DeviceTree& tree, const PairRule& rule, double margin,
+                        bool needs_loops, std::vector<std::uint32_t>& touching,
+                        std::vector<std::uint64_t>& asked) = 0;
+
+  /// Brings some points of a tree to the host, in this order.
+  /// @param to room for three coordinates each [m]
+  virtual void read_points(const DeviceTree& tree, const std::vector<std::uint32_t>& points,
+                           double* to) = 0;
 
   /// Locks pages of the host for as long as the result is held, so that the device reads what is in
   /// them by itself.

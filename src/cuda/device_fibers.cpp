@@ -1,5 +1,6 @@
 #include "src/cuda/device_fibers.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 
@@ -20,6 +21,44 @@ HostTopology topology_of(const std::vector<std::uint32_t>& offsets) {
     }
   }
   return topology;
+}
+
+void add_candidates(const std::vector<std::uint32_t>& offsets,
+                    const std::vector<std::uint32_t>& candidates, HostTopology& topology) {
+  const auto fiber_count = static_cast<std::uint32_t>(offsets.size()) - 1;
+  const auto count = static_cast<std::uint32_t>(candidates.size()) - 1;
+  topology.candidates_of_fibers.assign(fiber_count, count);
+  std::uint32_t segments = 0;
+  std::uint32_t fiber = 0;
+  for (std::uint32_t candidate = 0; candidate <= count; ++candidate) {
+    topology.candidate_points.push_back(offsets[fiber]);
+    topology.candidate_segments.push_back(segments);
+    const std::uint32_t end = candidate < count ? candidates[candidate + 1] : fiber;
+    for (; fiber < end; ++fiber) {
+      topology.candidates_of_fibers[fiber] = candidate;
+      const std::uint32_t points = offsets[fiber + 1] - offsets[fiber];
+      segments += points == 0 ? 0 : points - 1;
+    }
+  }
+}
+
+void require_candidates(const std::vector<std::uint32_t>& candidates, std::size_t fiber_count) {
+  const auto refuse = [&](std::size_t index) {
+    throw std::invalid_argument(
+        "candidates[" + std::to_string(index) + "] is " + std::to_string(candidates[index]) +
+        ", they must begin with 0, not decrease, and be at most the number of fibres, " +
+        std::to_string(fiber_count));
+  };
+  if (candidates.empty()) {
+    throw std::invalid_argument(
+        "candidates has no values, it needs at least 1: where what stands still begins");
+  }
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    const bool is_allowed = i == 0 ? candidates[i] == 0 : candidates[i] >= candidates[i - 1];
+    if (!is_allowed || candidates[i] > fiber_count) {
+      refuse(i);
+    }
+  }
 }
 
 void require_tree_size(std::size_t segment_count) {
@@ -44,10 +83,25 @@ HostFibers host_fibers(const FiberAssembly& fibers, std::vector<double>& radii) 
   return host;
 }
 
+namespace {
+
+/// @param candidates where their points begin, and where those of the last end; none without them
+std::string name_of(std::size_t point, const std::vector<std::uint32_t>* candidates) {
+  if (candidates == nullptr || point >= candidates->back()) {
+    return "point " + std::to_string(point);
+  }
+  const auto next = std::upper_bound(candidates->begin(), candidates->end(), point);
+  return "candidate " + std::to_string(next - candidates->begin() - 1) + ", its point " +
+         std::to_string(point - *(next - 1));
+}
+
+}  // namespace
+
 void refuse_points(const HostFibers& fibers) {
   for (std::size_t point = 0; point < fibers.point_count; ++point) {
     const double* const from = fibers.coordinates + 3 * point;
-    require_coordinates(("point " + std::to_string(point)).c_str(), {from[0], from[1], from[2]});
+    require_coordinates(name_of(point, fibers.candidate_points).c_str(),
+                        {from[0], from[1], from[2]});
   }
   throw std::invalid_argument("points have changed while they were read");
 }

@@ -12,6 +12,14 @@ namespace fiber {
 /// @param offsets of fibres, as FiberAssembly has them
 HostTopology topology_of(const std::vector<std::uint32_t>& offsets);
 
+/// Adds which fibres are of which candidate.
+/// @param candidates as DeviceProximity has them, that require_candidates() has seen
+void add_candidates(const std::vector<std::uint32_t>& offsets,
+                    const std::vector<std::uint32_t>& candidates, HostTopology& topology);
+
+/// @throws std::invalid_argument for what DeviceProximity may not be given
+void require_candidates(const std::vector<std::uint32_t>& candidates, std::size_t fiber_count);
+
 /// @throws std::invalid_argument for more segments than a tree can have
 void require_tree_size(std::size_t segment_count);
 

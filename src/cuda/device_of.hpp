@@ -13,6 +13,8 @@
 #include "src/cuda/contact_judge.hpp"
 #include "src/cuda/device.hpp"
 #include "src/cuda/device_tree_of.hpp"
+#include "src/cuda/mark_touching.hpp"
+#include "src/cuda/write_pairs.hpp"
 
 namespace fiber {
 
@@ -44,8 +46,10 @@ class DeviceOf final : public Device {
     clock_.start(*executor_);
     const std::uint32_t count = search_for_contacts(tree, rule);
     // They are there when it returns: others may read them.
-    const DeviceContacts contacts =
+    DeviceContacts contacts =
         judge_.judge_on_device(*executor_, tree.points(), margin, pairs_.data(), count);
+    find_candidates(tree, contacts.count);
+    contacts.candidate_begins = tree.candidates().exist() ? begins_.data() : nullptr;
     clock_.stop(*executor_);
     return contacts;
   }
@@ -54,11 +58,55 @@ class DeviceOf final : public Device {
                                   double margin) override {
     clock_.start(*executor_);
     const std::uint32_t count = search_for_contacts(tree, rule);
-    const DeviceContacts contacts =
+    DeviceContacts contacts =
         judge_.judge_to_host(*executor_, tree.points(), margin, pairs_.data(), count);
+    find_candidates(tree, contacts.count);
     clock_.stop(*executor_);
+    if (tree.candidates().exist()) {
+      host_begins_.resize(begins_.size());
+      executor_->download(begins_, 0, begins_.size(), host_begins_.data());
+      contacts.candidate_begins = host_begins_.data();
+    }
     judge_.wait(*executor_);
     return contacts;
+  }
+
+  void touching(const DeviceTree& tree, const PairRule& rule, double margin, bool needs_loops,
+                std::vector<std::uint32_t>& touching, std::vector<std::uint64_t>& asked) override {
+    const CandidateView& candidates = tree.candidates();
+    touching.assign(candidates.count, 0);
+    asked.clear();
+    if (leaf_count(tree) == 0) {
+      return;
+    }
+    clock_.start(*executor_);
+    touching_.resize(candidates.count);
+    executor_->zero(touching_);
+    const std::uint64_t found =
+        find_with(tree, 0, leaf_count(tree), tree, rule, most_pairs, [&](const WritePairs& pairs) {
+          return MarkTouching{tree.points(), margin,      tree.fibers_by_point(),
+                              candidates,    needs_loops, touching_.data(),
+                              pairs};
+        });
+    clock_.stop(*executor_);
+    require_pairs(found);
+    executor_->download(touching_, 0, touching.size(), touching.data());
+    asked.resize(static_cast<std::size_t>(found));
+    executor_->download(pairs_, 0, asked.size(), asked.data());
+  }
+
+  void read_points(const DeviceTree& tree, const std::vector<std::uint32_t>& points,
+                   double* to) override {
+    if (points.empty()) {
+      return;
+    }
+    typename Executor::template Buffer<std::uint32_t> wanted;
+    typename Executor::template Buffer<double> gathered;
+    executor_->upload(points.data(), points.size(), wanted);
+    gathered.resize(3 * points.size());
+    executor_->for_each(static_cast<std::uint32_t>(points.size()),
+                        GatherPoints{tree.points().coordinates, wanted.data(), gathered.data()});
+    executor_->download(gathered, 0, gathered.size(), to);
   }
 
   std::shared_ptr<void> lock_pages(const void* data, std::size_t bytes) override {
@@ -78,12 +126,14 @@ class DeviceOf final : public Device {
   }
 
   std::size_t memory_bytes() const override {
-    return pairs_.bytes() + count_.bytes() + judge_.memory_bytes();
+    return pairs_.bytes() + count_.bytes() + begins_.bytes() + touching_.bytes() +
+           judge_.memory_bytes();
   }
   double seconds() const override { return clock_.seconds(); }
 
  private:
   static constexpr std::uint64_t first_room = 1024;
+  static constexpr std::uint64_t most_pairs = std::numeric_limits<std::uint32_t>::max();
 
   /// The pairs, sorted, in pairs_; none if there are more than `most`.
   std::uint64_t search(const DeviceTree& a, std::uint32_t first_leaf, std::uint32_t leaf_count,
@@ -91,22 +141,36 @@ class DeviceOf final : public Device {
     if (leaf_count == 0 || b.view().level_count == 0) {
       return 0;
     }
+    const std::uint64_t count = find_with(a, first_leaf, leaf_count, b, rule, most,
+                                          [](const WritePairs& pairs) { return pairs; });
+    if (count <= most) {
+      executor_->sort(pairs_, static_cast<std::size_t>(count), bits_of_points(a, b));
+    }
+    return count;
+  }
+
+  /// Has the pairs written down, in any order, in pairs_; those of them that there is room for if
+  /// there are more than `most`.
+  /// @param taker_of what takes the pairs where it is given a WritePairs; it is asked anew when
+  ///                 there was too little room
+  template <class TakerOf>
+  std::uint64_t find_with(const DeviceTree& a, std::uint32_t first_leaf, std::uint32_t leaf_count,
+                          const DeviceTree& b, const PairRule& rule, std::uint64_t most,
+                          const TakerOf& taker_of) {
+    using Taker = decltype(taker_of(WritePairs()));
     count_.resize(1);
     if (pairs_.size() == 0) {
       pairs_.resize(static_cast<std::size_t>(std::min<std::uint64_t>(most, first_room)));
     }
     for (;;) {
       executor_->zero(count_);
-      executor_->for_each_warp(leaf_count,
-                               FindPairs{a.view(), b.view(), rule, a.fibers_by_point(), first_leaf,
-                                         pairs_.data(), pairs_.size(), count_.data()});
+      executor_->for_each_warp(
+          leaf_count,
+          FindPairs<Taker>{a.view(), b.view(), rule, a.fibers_by_point(), a.candidates(),
+                           first_leaf, taker_of({pairs_.data(), pairs_.size(), count_.data()})});
       std::uint64_t count = 0;
       executor_->download(count_, 0, 1, &count);
-      if (count > most) {
-        return count;
-      }
-      if (count <= pairs_.size()) {
-        executor_->sort(pairs_, static_cast<std::size_t>(count), bits_of_points(a, b));
+      if (count > most || count <= pairs_.size()) {
         return count;
       }
       // Room for a few more, as the next frame may have: looking twice takes longer.
@@ -117,13 +181,35 @@ class DeviceOf final : public Device {
 
   /// How many pairs of a tree's segments with each other are near; sorted, in pairs_.
   std::uint32_t search_for_contacts(const DeviceTree& tree, const PairRule& rule) {
-    constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max();
-    const std::uint64_t found = search(tree, 0, tree.view().leaf_count(), tree, rule, most);
-    if (found > most) {
+    const std::uint64_t found = search(tree, 0, leaf_count(tree), tree, rule, most_pairs);
+    require_pairs(found);
+    return static_cast<std::uint32_t>(found);
+  }
+
+  static void require_pairs(std::uint64_t found) {
+    if (found > most_pairs) {
       throw std::runtime_error("cuda_tree: " + std::to_string(found) +
                                " pairs are near, more than the 2^32 that contacts may be of");
     }
-    return static_cast<std::uint32_t>(found);
+  }
+
+  /// How many leaves have pairs to look for: what stands still has none of its own.
+  static std::uint32_t leaf_count(const DeviceTree& tree) {
+    const CandidateView& candidates = tree.candidates();
+    return candidates.exist() && tree.view().level_count > 0
+               ? (candidates.segment_end + warp_width - 1) / warp_width
+               : tree.view().leaf_count();
+  }
+
+  /// Which of the contacts that have been found are of which candidate.
+  void find_candidates(const DeviceTree& tree, std::uint32_t contact_count) {
+    const CandidateView& candidates = tree.candidates();
+    if (!candidates.exist()) {
+      return;
+    }
+    begins_.resize(candidates.count + 1);
+    executor_->for_each(candidates.count + 1, FindCandidates{candidates, judge_.on_device().a,
+                                                             contact_count, begins_.data()});
   }
 
   /// How many bits the numbers of points of both have.
@@ -138,6 +224,9 @@ class DeviceOf final : public Device {
   std::shared_ptr<Executor> executor_;
   typename Executor::template Buffer<std::uint64_t> pairs_;
   typename Executor::template Buffer<std::uint64_t> count_;
+  typename Executor::template Buffer<std::uint32_t> touching_;
+  typename Executor::template Buffer<std::uint32_t> begins_;
+  typename Executor::template HostBuffer<std::uint32_t> host_begins_;
   ContactJudge<Executor> judge_;
   typename Executor::Clock clock_;
 };

@@ -5,30 +5,51 @@
 #include <string>
 
 #include "src/cuda/device_fibers.hpp"
+#include "src/cuda/device_proximity_tree.hpp"
 
 namespace fiber {
-
-struct DeviceProximity::Tree {
-  std::unique_ptr<DeviceTree> tree;
-  std::vector<double> radii;  // by first point [m]
-  HostFibers fibers;          // without coordinates
-  bool has_points = false;
-};
 
 DeviceProximity::DeviceProximity(std::vector<std::uint32_t> offsets, std::vector<double> radii)
     : DeviceProximity(make_cuda_device(), std::move(offsets), std::move(radii)) {}
 
+DeviceProximity::DeviceProximity(std::vector<std::uint32_t> offsets, std::vector<double> radii,
+                                 std::vector<std::uint32_t> candidates)
+    : DeviceProximity(make_cuda_device(), std::move(offsets), std::move(radii),
+                      std::move(candidates)) {}
+
 DeviceProximity::DeviceProximity(std::unique_ptr<Device> device, std::vector<std::uint32_t> offsets,
                                  std::vector<double> radii)
     : offsets_(std::move(offsets)), device_(std::move(device)), tree_(std::make_unique<Tree>()) {
+  take_topology(std::move(radii), nullptr);
+}
+
+DeviceProximity::DeviceProximity(std::unique_ptr<Device> device, std::vector<std::uint32_t> offsets,
+                                 std::vector<double> radii, std::vector<std::uint32_t> candidates)
+    : offsets_(std::move(offsets)), device_(std::move(device)), tree_(std::make_unique<Tree>()) {
+  take_topology(std::move(radii), &candidates);
+}
+
+/// @param candidates null where there are none
+void DeviceProximity::take_topology(std::vector<double> radii,
+                                    std::vector<std::uint32_t>* candidates) {
   // It looks at the offsets and the radii; where the points are nobody knows yet.
   const std::size_t point_count = offsets_.empty() ? 0 : offsets_.back();
   const FiberAssembly fibers(std::vector<Eigen::Vector3d>(point_count, Eigen::Vector3d::Zero()),
                              offsets_, std::move(radii));
   require_tree_size(fibers.segment_count());
+  HostTopology topology = topology_of(offsets_);
   tree_->fibers = host_fibers(fibers, tree_->radii);
+  tree_->radius_per = fibers.radius_per();
+  if (candidates != nullptr) {
+    require_candidates(*candidates, fibers.fiber_count());
+    add_candidates(offsets_, *candidates, topology);
+    tree_->given_radii = fibers.radii();
+    tree_->candidates = std::move(*candidates);
+    tree_->candidate_points = topology.candidate_points;
+    tree_->fibers.candidate_points = &tree_->candidate_points;
+  }
   tree_->tree = device_->make_tree();
-  tree_->tree->set_topology(topology_of(offsets_));
+  tree_->tree->set_topology(topology);
 }
 
 DeviceProximity::~DeviceProximity() = default;
@@ -70,6 +91,15 @@ void DeviceProximity::copy_to_host(const Contacts& contacts, HostContacts& copy)
   read(contacts.s, copy.s);
   read(contacts.t, copy.t);
   read(contacts.distance, copy.distance);
+  copy.candidate_begins.resize(contacts.candidate_begins != nullptr ? candidate_count() + 1 : 0);
+  if (contacts.candidate_begins != nullptr) {
+    device_->read(contacts.candidate_begins, copy.candidate_begins.size() * sizeof(std::uint32_t),
+                  copy.candidate_begins.data());
+  }
+}
+
+std::size_t DeviceProximity::candidate_count() const {
+  return tree_->candidates.empty() ? 0 : tree_->candidates.size() - 1;
 }
 
 /// @throws as query()
@@ -81,20 +111,35 @@ PairRule DeviceProximity::rule_of(const Options& options) const {
   if (!tree_->has_points) {
     throw std::logic_error("there are no points yet: call update() first");
   }
-  return pair_rule(options.margin, options.neighbour_skip, options.pairing);
+  PairRule rule = pair_rule(options.margin, options.neighbour_skip.value_or(1), options.pairing);
+  rule.with_itself = options.with_itself;
+  return rule;
+}
+
+/// @throws as query()
+PairRule DeviceProximity::rule_of_contacts(const Options& options) const {
+  if (!options.neighbour_skip) {
+    throw std::invalid_argument(
+        "neighbour_skip has no value, contacts on the device need one: the rule of loops is asked "
+        "by check_candidates() alone");
+  }
+  return rule_of(options);
 }
 
 DeviceProximity::Contacts DeviceProximity::query(const Options& options) const {
-  const DeviceContacts found = device_->contacts(*tree_->tree, rule_of(options), options.margin);
+  const DeviceContacts found =
+      device_->contacts(*tree_->tree, rule_of_contacts(options), options.margin);
   const ContactArrays& arrays = found.arrays;
-  return {found.count, arrays.a, arrays.b, arrays.s, arrays.t, arrays.distance};
+  return {found.count,           arrays.a, arrays.b, arrays.s, arrays.t, arrays.distance,
+          found.candidate_begins};
 }
 
 DeviceProximity::HostArrays DeviceProximity::query_to_host(const Options& options) const {
   const DeviceContacts found =
-      device_->contacts_to_host(*tree_->tree, rule_of(options), options.margin);
+      device_->contacts_to_host(*tree_->tree, rule_of_contacts(options), options.margin);
   const ContactArrays& arrays = found.arrays;
-  return {found.count, arrays.a, arrays.b, arrays.s, arrays.t, arrays.distance};
+  return {found.count,           arrays.a, arrays.b, arrays.s, arrays.t, arrays.distance,
+          found.candidate_begins};
 }
 
 double DeviceProximity::device_seconds() const {

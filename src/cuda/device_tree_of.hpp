@@ -4,9 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <stdexcept>
-#include <string>
 #include <utility>
+#include <vector>
 
 #include "src/cuda/device.hpp"
 
@@ -41,6 +40,10 @@ class DeviceTreeOf final : public DeviceTree {
     segment_count_ = static_cast<std::uint32_t>(topology.first_points.size());
     executor_->upload(topology.first_points.data(), topology.first_points.size(), first_points_);
     executor_->upload(topology.fibers.data(), topology.fibers.size(), fibers_);
+    candidates_ = {};
+    if (!topology.candidate_points.empty()) {
+      take_candidates(topology);
+    }
   }
 
   void update(const HostFibers& fibers) override {
@@ -67,12 +70,14 @@ class DeviceTreeOf final : public DeviceTree {
   const SegmentTreeView& view() const override { return view_; }
   const std::uint32_t* fibers_by_point() const override { return fibers_.data(); }
   std::size_t point_count() const override { return fibers_.size(); }
+  const CandidateView& candidates() const override { return candidates_; }
   const TreePoints& points() const override { return points_; }
 
   std::size_t memory_bytes() const override {
     std::size_t bytes = first_points_.bytes() + fibers_.bytes() + coordinates_.bytes() +
                         radii_.bytes() + bounds_.bytes() + bad_count_.bytes() + keys_.bytes() +
-                        order_.bytes() + segments_.bytes();
+                        order_.bytes() + segments_.bytes() + candidates_of_fibers_.bytes() +
+                        candidate_points_.bytes() + candidate_segments_.bytes();
     for (const auto& boxes : boxes_) {
       bytes += boxes.bytes();
     }
@@ -82,6 +87,19 @@ class DeviceTreeOf final : public DeviceTree {
  private:
   static std::uint32_t in_warps(std::uint32_t count) {
     return (count + warp_width - 1) / warp_width;
+  }
+
+  void take_candidates(const HostTopology& topology) {
+    const auto upload = [&](const std::vector<std::uint32_t>& from, auto& to) {
+      executor_->upload(from.data(), from.size(), to);
+      return to.data();
+    };
+    candidates_.of_fibers = upload(topology.candidates_of_fibers, candidates_of_fibers_);
+    candidates_.first_segments = upload(topology.candidate_segments, candidate_segments_);
+    candidates_.first_points = upload(topology.candidate_points, candidate_points_);
+    candidates_.count = static_cast<std::uint32_t>(topology.candidate_points.size()) - 1;
+    candidates_.point_end = topology.candidate_points.back();
+    candidates_.segment_end = topology.candidate_segments.back();
   }
 
   template <class Number>
@@ -96,11 +114,12 @@ class DeviceTreeOf final : public DeviceTree {
     coordinates_.resize(count);
     clock_.start(*executor_);
     executor_->for_each(count, TakePoints<Number>{coordinates, coordinates_.data()});
-    const std::uint64_t bad_count = build(fibers);
-    if (bad_count != 0) {
-      throw std::invalid_argument(
-          std::to_string(bad_count) +
-          " coordinates on the device are not finite, or above 1e150 m in magnitude");
+    if (build(fibers) != 0) {
+      std::vector<double> there(count);
+      executor_->download(coordinates_, 0, count, there.data());
+      HostFibers named = fibers;
+      named.coordinates = there.data();
+      refuse_points(named);
     }
   }
 
@@ -151,8 +170,20 @@ class DeviceTreeOf final : public DeviceTree {
     }
     keys_.resize(segment_count_);
     order_.resize(segment_count_);
-    executor_->for_each(segment_count_, PlaceSegments{points, bounds, keys_.data(), order_.data()});
-    executor_->sort_by_key(keys_, order_, segment_count_, 3 * PlaceSegments::bits);
+    const int candidate_bits = candidates_.exist() ? bits_of(candidates_.count) : 0;
+    const int position_bits = std::min(PlaceSegments::most_bits, key_bits - candidate_bits);
+    executor_->for_each(segment_count_, PlaceSegments{points, bounds, keys_.data(), order_.data(),
+                                                      candidates_, fibers_.data(), position_bits});
+    executor_->sort_by_key(keys_, order_, segment_count_, candidate_bits + position_bits);
+  }
+
+  /// How many bits numbers up to this one have.
+  static int bits_of(std::uint32_t number) {
+    int bits = 1;
+    while (number >> bits != 0) {
+      ++bits;
+    }
+    return bits;
   }
 
   /// Fits the boxes to them.
@@ -184,10 +215,16 @@ class DeviceTreeOf final : public DeviceTree {
   template <class T>
   using Buffer = typename Executor::template Buffer<T>;
 
+  static constexpr int key_bits = 32;
+
   std::shared_ptr<Executor> executor_;
   std::uint32_t segment_count_ = 0;
   Buffer<std::uint32_t> first_points_;
   Buffer<std::uint32_t> fibers_;
+  Buffer<std::uint32_t> candidates_of_fibers_;
+  Buffer<std::uint32_t> candidate_points_;
+  Buffer<std::uint32_t> candidate_segments_;
+  CandidateView candidates_;
   Buffer<double> coordinates_;
   Buffer<double> radii_;
   Buffer<PointBounds> bounds_;

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "src/cuda/candidates.hpp"
 #include "src/cuda/segment_tree.hpp"
 
 namespace fiber {
@@ -14,6 +15,7 @@ struct PairRule {
   std::uint32_t neighbour_skip = 0;
   bool same_fiber = true;        ///< whether pairs of one fibre are wanted
   bool different_fibers = true;  ///< and those of two
+  bool with_itself = true;       ///< whether pairs of one candidate are wanted at all
 };
 
 /// Looks for the pairs of leaves of one tree, a warp each, with all of another; or of one tree with
@@ -24,6 +26,8 @@ struct PairRule {
 /// each of the other's against the warp's; then the warp runs over the fewer of the two. Pairs
 /// whose boxes overlap wait in a queue until every lane has one, so that all take part in the test
 /// of distance.
+/// @tparam Taker what becomes of them: WritePairs has what it can
+template <class Taker>
 struct FindPairs {
   /// A box that is read in two steps.
   struct alignas(16) PaddedBox {
@@ -44,10 +48,9 @@ struct FindPairs {
   SegmentTreeView b;
   PairRule rule;
   const std::uint32_t* fibers;  ///< by first point; those of the one tree, for the rule
+  CandidateView candidates;     ///< of the one tree, if it has any
   std::uint32_t first_leaf;     ///< of a: that of the first warp
-  std::uint64_t* pairs;         ///< room for the keys of pairs
-  std::uint64_t capacity;
-  std::uint64_t* count;  ///< of all that were found, also of those there was no room for
+  Taker taker;
 
   template <class Warp>
   FIBER_ON_DEVICE void operator()(Warp warp, std::uint32_t index, Scratch& scratch) const {
@@ -78,8 +81,9 @@ struct FindPairs {
         }
       });
       warp_.sync();
+      find_candidates();
       int size = 1;
-      while (size > 0) {
+      while (size > 0 && !what_.taker.is_over(first_candidate_, last_candidate_)) {
         --size;
         const std::uint32_t entry = scratch_.stack[size];
         warp_.sync();
@@ -103,6 +107,26 @@ struct FindPairs {
       return x < y ? x : y;
     }
 
+    FIBER_ON_DEVICE std::uint32_t candidate_of(std::uint32_t point) const {
+      return what_.candidates.of_fibers[what_.fibers[point]];
+    }
+
+    /// Which candidates the leaf is of, and where in the tree is what they may meet.
+    FIBER_ON_DEVICE void find_candidates() {
+      const CandidateView& candidates = what_.candidates;
+      if (!candidates.exist()) {
+        return;
+      }
+      first_candidate_ = candidate_of(scratch_.mine[0].point);
+      last_candidate_ = candidate_of(scratch_.mine[warp_width - 1].point);
+      leaves_.own_end = what_.rule.with_itself
+                            ? (candidates.end_of(last_candidate_) + warp_width - 1) / warp_width
+                            : 0U;
+      if (candidates.segment_end < what_.b.segment_count) {
+        leaves_.still_begin = candidates.segment_end / warp_width;
+      }
+    }
+
     /// By value: a choice of references would keep both in memory.
     FIBER_ON_DEVICE static TreeBox chosen(bool first, const TreeBox& x, const TreeBox& y) {
       TreeBox box{};
@@ -121,8 +145,10 @@ struct FindPairs {
       const std::uint32_t near = warp_.ballot([&](int lane) {
         const std::uint32_t child = place(node, lane);
         // The leaves below it end here; all earlier ones than this look for it themselves.
+        const std::uint64_t begin = std::uint64_t{child} << (bits_per_level * level);
         const std::uint64_t end = (std::uint64_t{child} + 1) << (bits_per_level * level);
-        return child < count && (!what_.rule.self || end > leaf_) && overlap(whole_, boxes[child]);
+        return child < count && (!what_.rule.self || end > leaf_) && leaves_.meet(begin, end) &&
+               overlap(whole_, boxes[child]);
       });
       warp_.each([&](int lane) {
         if ((near & bit_of(lane)) != 0) {
@@ -229,7 +255,7 @@ struct FindPairs {
       }
     }
 
-    /// Writes those of the first pairs down that may be near.
+    /// Has those of the first pairs taken that may be near.
     FIBER_ON_DEVICE void test_segments(int size) {
       const std::uint32_t near = warp_.ballot([&](int lane) {
         return lane < size && Pair(*this, scratch_.lines_near[lane]).segments_are_near();
@@ -237,15 +263,9 @@ struct FindPairs {
       if (near == 0) {
         return;
       }
-      const std::uint64_t at =
-          warp_.raise(what_.count, static_cast<std::uint64_t>(count_bits(near)));
-      warp_.each([&](int lane) {
-        const std::uint64_t to =
-            at + static_cast<std::uint64_t>(count_bits(near & bits_before(lane)));
-        if ((near & bit_of(lane)) != 0 && to < what_.capacity) {
-          const Pair pair(*this, scratch_.lines_near[lane]);
-          what_.pairs[to] = key_of(pair.mine.point, pair.other.point);
-        }
+      what_.taker.take(warp_, near, [&](int lane) {
+        const Pair pair(*this, scratch_.lines_near[lane]);
+        return key_of(pair.mine.point, pair.other.point);
       });
     }
 
@@ -257,6 +277,16 @@ struct FindPairs {
       const PairRule& rule = what_.rule;
       if (!rule.self) {
         return true;
+      }
+      if (what_.candidates.exist()) {
+        const bool x_stands = x >= what_.candidates.point_end;
+        const bool y_stands = y >= what_.candidates.point_end;
+        if (x_stands || y_stands) {
+          return x_stands != y_stands;
+        }
+        if (!rule.with_itself || candidate_of(x) != candidate_of(y)) {
+          return false;
+        }
       }
       const std::uint32_t apart = x < y ? y - x : x - y;
       if (apart > rule.neighbour_skip && rule.same_fiber && rule.different_fibers) {
@@ -304,6 +334,9 @@ struct FindPairs {
     TreeBox whole_{};
     int boxes_waiting_ = 0;
     int lines_waiting_ = 0;
+    CandidateLeaves leaves_;
+    std::uint32_t first_candidate_ = 0;
+    std::uint32_t last_candidate_ = 0;
   };
 };
 

@@ -57,6 +57,14 @@ struct JudgedPair {
   double gap;  ///< [m]
 };
 
+/// @param a, b first points of the two segments
+FIBER_ON_DEVICE inline JudgedPair judged_pair(const TreePoints& points, std::uint32_t a,
+                                              std::uint32_t b) {
+  const NearestPoints nearest(points.coordinates + 3 * std::size_t{a},
+                              points.coordinates + 3 * std::size_t{b});
+  return {nearest.s, nearest.t, nearest.distance - (points.radius_of(a) + points.radius_of(b))};
+}
+
 /// Decides which pairs are contacts, as Kernel::ROBUST does.
 struct JudgePairs {
   TreePoints points;
@@ -70,16 +78,8 @@ struct JudgePairs {
     const std::uint32_t index = first + number;
     const auto a = static_cast<std::uint32_t>(pairs[index] >> 32U);
     const auto b = static_cast<std::uint32_t>(pairs[index]);
-    const NearestPoints nearest(points.coordinates + 3 * std::size_t{a},
-                                points.coordinates + 3 * std::size_t{b});
-    const double gap = nearest.distance - (radius(a) + radius(b));
-    judged[index] = {nearest.s, nearest.t, gap};
-    are_contacts[index] = gap <= margin ? 1U : 0U;
-  }
-
- private:
-  FIBER_ON_DEVICE double radius(std::uint32_t point) const {
-    return points.radii == nullptr ? points.radius : points.radii[point];
+    judged[index] = judged_pair(points, a, b);
+    are_contacts[index] = judged[index].gap <= margin ? 1U : 0U;
   }
 };
 

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "src/cuda/candidates.hpp"
 #include "src/cuda/warp.hpp"
 // What a lane does is written for one.
 #ifndef FIBER_ONE_LANE
@@ -80,6 +81,11 @@ struct TreePoints {
   const double* radii = nullptr;  ///< by first point [m]; none where all have the one
   double radius = 0.0;            ///< [m]
   double origin[3] = {};          ///< [m]
+
+  /// @param point the first one of a segment
+  FIBER_ON_DEVICE double radius_of(std::uint32_t point) const {
+    return radii == nullptr ? radius : radii[point];
+  }
 };
 
 /// The box of all points [m].
@@ -178,15 +184,20 @@ struct JoinBoxes {
 };
 
 /// Positions of the middles of segments along Hilbert's curve through the bounds, ten bits an axis:
-/// SpaceCurve, a segment at a time.
+/// SpaceCurve, a segment at a time. Of candidates the number comes first, and then what there is
+/// room for: a shorter position is one of fewer bits an axis.
 struct PlaceSegments {
   static constexpr std::uint32_t bits = 10;
   static constexpr double cells = (1U << bits) - 1U;
+  static constexpr int most_bits = 3 * bits;
 
   TreePoints points;
   const PointBounds* bounds;
   std::uint32_t* keys;
   std::uint32_t* order;
+  CandidateView candidates;
+  const std::uint32_t* fibers;  ///< by point
+  int position_bits;            ///< of keys, the lower ones
 
   FIBER_ON_DEVICE void operator()(std::uint32_t index) const {
     const std::uint32_t point = points.first_points[index];
@@ -204,7 +215,11 @@ struct PlaceSegments {
       const double at = (middle - bounds->lower[axis]) * per_metre;
       cell[axis] = at > 0.0 ? static_cast<std::uint32_t>(at < cells ? at : cells) : 0U;
     }
-    keys[index] = position(cell);
+    std::uint32_t key = position(cell) >> (most_bits - position_bits);
+    if (candidates.exist()) {
+      key |= candidates.of_fibers[fibers[point]] << position_bits;
+    }
+    keys[index] = key;
     order[index] = point;
   }
 
@@ -255,8 +270,7 @@ struct ReadSegments {
     const double* const ends = points.coordinates + 3 * std::size_t{point};
     TreeSegment segment{};
     segment.point = point;
-    const double radius = points.radii == nullptr ? points.radius : points.radii[point];
-    segment.radius = rounded(radius);
+    segment.radius = rounded(points.radius_of(point));
     float magnitude = segment.radius;
     for (int axis = 0; axis < 3; ++axis) {
       segment.start[axis] = rounded(ends[axis] - points.origin[axis]);

@@ -2,8 +2,10 @@
 
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -60,22 +62,28 @@ std::unique_ptr<Device> device_of(const std::string& name) {
 /// One of the fibres' engine on the GPU, as Python has it.
 class PythonDeviceProximity {
  public:
-  PythonDeviceProximity(const py::object& offsets, const py::object& radii, std::string device)
+  PythonDeviceProximity(const py::object& offsets, const py::object& radii, std::string device,
+                        const py::object& candidates)
       : device_(std::move(device)),
-        proximity_(device_of(device_), to_indices(offsets, "offsets"), to_numbers(radii, "radii")) {
-  }
+        proximity_(candidates.is_none()
+                       ? std::make_unique<DeviceProximity>(device_of(device_),
+                                                           to_indices(offsets, "offsets"),
+                                                           to_numbers(radii, "radii"))
+                       : std::make_unique<DeviceProximity>(
+                             device_of(device_), to_indices(offsets, "offsets"),
+                             to_numbers(radii, "radii"), to_indices(candidates, "candidates"))) {}
 
   void update(const py::object& points) {
     if (py::hasattr(points, "__cuda_array_interface__")) {
       const CudaPoints on_device(points.attr("__cuda_array_interface__").cast<py::dict>(),
-                                 proximity_.point_count());
+                                 proximity_->point_count());
       const WithoutPythonLock others_may_run;
       const std::lock_guard<std::mutex> lock(mutex_);
       ++generation_;
       if (on_device.is_single) {
-        proximity_.update(reinterpret_cast<const float*>(on_device.address));
+        proximity_->update(reinterpret_cast<const float*>(on_device.address));
       } else {
-        proximity_.update(reinterpret_cast<const double*>(on_device.address));
+        proximity_->update(reinterpret_cast<const double*>(on_device.address));
       }
       return;
     }
@@ -83,17 +91,28 @@ class PythonDeviceProximity {
     const WithoutPythonLock others_may_run;
     const std::lock_guard<std::mutex> lock(mutex_);
     ++generation_;
-    proximity_.update_from_host(on_host);
+    proximity_->update_from_host(on_host);
   }
 
-  DeviceProximity::Contacts query(double margin, std::int64_t neighbour_skip,
-                                  const std::string& pairing, std::uint64_t& generation) {
-    const DeviceProximity::Options options{margin, to_index(neighbour_skip, "neighbour_skip"),
-                                           pairing_from_name(pairing)};
+  DeviceProximity::Contacts query(const DeviceProximity::Options& options,
+                                  std::uint64_t& generation) {
     const WithoutPythonLock others_may_run;
     const std::lock_guard<std::mutex> lock(mutex_);
     generation = ++generation_;
-    return proximity_.query(options);
+    return proximity_->query(options);
+  }
+
+  py::array_t<bool> check(const DeviceProximity::Options& options) {
+    std::vector<std::uint8_t> touching;
+    {
+      const WithoutPythonLock others_may_run;
+      const std::lock_guard<std::mutex> lock(mutex_);
+      ++generation_;
+      proximity_->check_candidates(options, touching);
+    }
+    py::array_t<bool> answer(static_cast<Py_ssize_t>(touching.size()));
+    std::copy(touching.begin(), touching.end(), answer.mutable_data());
+    return answer;
   }
 
   /// Calls while nobody asks for other contacts.
@@ -105,25 +124,35 @@ class PythonDeviceProximity {
       throw std::runtime_error(
           "these contacts are gone: the points were updated, or others asked for");
     }
-    call(proximity_);
+    call(*proximity_);
   }
 
   bool is_on_gpu() const { return device_ == "gpu"; }
-  double device_seconds() const { return proximity_.device_seconds(); }
+  double device_seconds() const { return proximity_->device_seconds(); }
 
  private:
   std::string device_;
-  DeviceProximity proximity_;
+  std::unique_ptr<DeviceProximity> proximity_;
   std::mutex mutex_;
   std::uint64_t generation_ = 0;
 };
 
+/// @param neighbour_skip None for the rule of loops
+DeviceProximity::Options to_device_options(double margin, const py::object& neighbour_skip,
+                                           const std::string& pairing, bool with_itself) {
+  DeviceProximity::Options options{margin, std::nullopt, pairing_from_name(pairing), with_itself};
+  if (!neighbour_skip.is_none()) {
+    options.neighbour_skip = to_index(neighbour_skip.cast<std::int64_t>(), "neighbour_skip");
+  }
+  return options;
+}
+
 /// What one query has found.
 class PythonDeviceContacts {
  public:
-  PythonDeviceContacts(std::shared_ptr<PythonDeviceProximity> of, double margin,
-                       std::int64_t neighbour_skip, const std::string& pairing)
-      : of_(std::move(of)), contacts_(of_->query(margin, neighbour_skip, pairing, generation_)) {}
+  PythonDeviceContacts(std::shared_ptr<PythonDeviceProximity> of,
+                       const DeviceProximity::Options& options)
+      : of_(std::move(of)), contacts_(of_->query(options, generation_)) {}
 
   std::uint32_t count() const { return contacts_.count; }
 
@@ -155,6 +184,9 @@ class PythonDeviceContacts {
     arrays["s"] = to_array(py::dtype("f8"), copy.s);
     arrays["t"] = to_array(py::dtype("f8"), copy.t);
     arrays["distance"] = to_array(py::dtype("f8"), copy.distance);
+    if (!copy.candidate_begins.empty()) {
+      arrays["candidate_begins"] = to_array(py::dtype("u4"), copy.candidate_begins);
+    }
     return arrays;
   }
 
@@ -212,7 +244,8 @@ void bind_device_proximity(py::module& module) {
           [](const Contacts& all) { return array_of<&DeviceProximity::Contacts::distance>(all); },
           "Signed gap of the surfaces [m], float64.")
       .def("to_host", &PythonDeviceContacts::to_host,
-           "All five as arrays of numpy, in a dict by their names.")
+           "All five as arrays of numpy, in a dict by their names. With candidates also "
+           "`candidate_begins`: which contact is the first of each, and how many there are.")
       .def("__len__", &PythonDeviceContacts::count);
 
   py::class_<PythonDeviceProximity, std::shared_ptr<PythonDeviceProximity>>(module,
@@ -230,9 +263,14 @@ radii : float or array (fibres,) or (n,)
     [m]
 device : str
     ``gpu``, or ``host``: the same code as loops on the processor, to try things where no GPU is.
+candidates : array (candidates + 1,) of int, optional
+    Fibres ``candidates[c]`` to ``candidates[c + 1] - 1`` are candidate c, as ``check()`` has them;
+    those from the last value on stand still. A candidate meets itself and what stands still, and
+    no other candidate.
 )")
-      .def(py::init<const py::object&, const py::object&, std::string>(), py::arg("offsets"),
-           py::arg("radii"), py::arg("device") = "gpu")
+      .def(py::init<const py::object&, const py::object&, std::string, const py::object&>(),
+           py::arg("offsets"), py::arg("radii"), py::arg("device") = "gpu",
+           py::arg("candidates") = py::none())
       .def("update", &PythonDeviceProximity::update, py::arg("points"), R"(
 Takes the points, (n, 3) [m]: anything with ``__cuda_array_interface__`` of float32 or float64 in C
 order (cupy, torch, warp, numba), or an array on the host.
@@ -242,14 +280,30 @@ Raises ValueError for another shape, and for coordinates that are not finite.
       .def(
           "query",
           [](const std::shared_ptr<PythonDeviceProximity>& self, double margin,
-             std::int64_t neighbour_skip, const std::string& pairing) {
-            return std::make_shared<PythonDeviceContacts>(self, margin, neighbour_skip, pairing);
+             std::int64_t neighbour_skip, const std::string& pairing, bool with_itself) {
+            return std::make_shared<PythonDeviceContacts>(
+                self, to_device_options(margin, py::int_(neighbour_skip), pairing, with_itself));
           },
-          py::arg("margin") = 0.0, py::arg("neighbour_skip") = 1, py::arg("pairing") = "all", R"(
+          py::arg("margin") = 0.0, py::arg("neighbour_skip") = 1, py::arg("pairing") = "all",
+          py::arg("with_itself") = true, R"(
 Finds all contacts within a finite margin [m]; a DeviceContacts.
 
 ``neighbour_skip`` leaves out segments of one fibre whose indices differ by at most this;
-``pairing`` is ``all``, ``same_fiber`` or ``different_fibers``.
+``pairing`` is ``all``, ``same_fiber`` or ``different_fibers``. Without ``with_itself`` candidates
+have contacts with what stands still alone.
+)")
+      .def(
+          "check_candidates",
+          [](PythonDeviceProximity& self, double margin, const py::object& neighbour_skip,
+             const std::string& pairing, bool with_itself) {
+            return self.check(to_device_options(margin, neighbour_skip, pairing, with_itself));
+          },
+          py::arg("margin") = 0.0, py::arg("neighbour_skip") = py::none(),
+          py::arg("pairing") = "all", py::arg("with_itself") = true, R"(
+Which candidates touch themselves or what stands still: an array (candidates,) of bool on the host.
+
+Without ``neighbour_skip`` the rule of loops tells contacts of a fibre with itself from neighbours,
+as in ``check()``; else as in ``query()``. The first contact of a candidate ends what is looked for.
 )")
       .def_property_readonly("device_seconds", &PythonDeviceProximity::device_seconds,
                              "What the last update and the last query took on the GPU [s].");

@@ -263,7 +263,7 @@ TEST(DeviceProximity, RefusesWhatIsNotAllowed) {
   coordinates[4] = std::numeric_limits<double>::quiet_NaN();
   coordinates[5] = 1e200;
   const std::string bad =
-      "2 coordinates on the device are not finite, or above 1e150 m in magnitude";
+      "point 1: y is nan, coordinates must be finite and at most 1e150 m in magnitude";
   EXPECT_EQ(error_of([&] { device.update(arrays.put(coordinates).get()); }), bad);
   EXPECT_THROW(device.query({}), std::logic_error);
 }

@@ -3,8 +3,11 @@
 // fails.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -13,6 +16,7 @@
 #include "src/cuda/cuda_tree_engine.hpp"
 #include "test/support/answers.hpp"
 #include "test/support/assemblies.hpp"
+#include "test/support/candidate_batch.hpp"
 #include "test/support/contacts.hpp"
 #include "test/support/failing_device.hpp"
 #include "test/support/random.hpp"
@@ -161,6 +165,53 @@ void expect_recovery(bool is_for_good) {
 TEST(LostDevice, EveryCallOfDeviceProximityTellsOfIt) { expect_recovery(true); }
 
 TEST(LostDevice, OneThatFailsOnceGoesOn) { expect_recovery(false); }
+
+/// Fibres that only the rule of loops decides about, whose points go to the host for it.
+TEST(LostDevice, CandidatesTellOfIt) {
+  SCOPED_TRACE(seed_message());
+  Random random;
+  std::vector<FiberAssembly> coils;
+  for (int i = 0; i < 20; ++i) {
+    coils.push_back(coil(random));
+  }
+  const CandidateBatch batch(coils, FiberAssembly());
+  const DeviceProximity::Options with_loops{0.0, std::nullopt};
+  const auto make = [&] {
+    return std::make_unique<DeviceProximity>(make_failing_device(), batch.offsets, batch.radii,
+                                             batch.begins);
+  };
+  will_not_fail();
+  std::vector<std::uint8_t> expected;
+  std::vector<std::uint32_t> begins;
+  {
+    const std::unique_ptr<DeviceProximity> device = make();
+    device->update_from_host(batch.points);
+    device->check_candidates(with_loops, expected);
+    const DeviceProximity::HostArrays arrays = device->query_to_host({});
+    begins.assign(arrays.candidate_begins, arrays.candidate_begins + coils.size() + 1);
+  }
+  const auto touching_count = std::count(expected.begin(), expected.end(), 1);
+  ASSERT_TRUE(touching_count > 0 && touching_count < 20) << touching_count;
+  for (const bool is_for_good : {false, true}) {
+    for_each_failure(is_for_good, [&] {
+      std::unique_ptr<DeviceProximity> device;
+      std::vector<std::uint8_t> touching;
+      DeviceProximity::HostArrays arrays;
+      const auto step = [&](const std::function<void()>& work) {
+        return succeeds(work) || (succeeds(work) && !is_for_good);
+      };
+      const bool is_done = step([&] { device = make(); }) &&
+                           step([&] { device->update_from_host(batch.points); }) &&
+                           step([&] { device->check_candidates(with_loops, touching); }) &&
+                           step([&] { arrays = device->query_to_host({}); });
+      EXPECT_EQ(is_done, !(fault.has_failed && is_for_good));
+      if (is_done) {
+        EXPECT_EQ(touching, expected);
+        EXPECT_TRUE(std::equal(begins.begin(), begins.end(), arrays.candidate_begins));
+      }
+    });
+  }
+}
 
 }  // namespace
 }  // namespace fiber::test

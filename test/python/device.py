@@ -42,6 +42,32 @@ class Device(unittest.TestCase):
             for name in 's', 't', 'distance':
                 np.testing.assert_array_equal(arrays[name], expected[name])
 
+    def test_checks_candidates_as_check_does(self):
+        # Each fibre from a place of its own on.
+        places = np.random.default_rng(5).uniform(-0.3, 0.3, (163, 1, 3))
+        fibers = places + walks(100, 163, 30)[0].reshape(163, 30, 3)
+        candidates, still = fibers[:160].reshape(40, 120, 3), fibers[160:].reshape(90, 3)
+        points = np.concatenate([candidates.reshape(-1, 3), still])
+        offsets = np.arange(0, len(points) + 1, 30)
+        proximity = fp.DeviceProximity(offsets, 0.001, device='host', candidates=np.arange(0, 161, 4))
+        proximity.update(points)
+        engine = fp.Engine(fp.Fibers(still, [0, 30, 60, 90], 0.001))
+        batch = candidates.reshape(40, 4, 30, 3)
+        for with_itself in True, False:
+            free = engine.check(batch, radii=0.001, with_itself=with_itself).free
+            touching = proximity.check_candidates(with_itself=with_itself)
+            self.assertEqual(touching.dtype, bool)
+            np.testing.assert_array_equal(touching, ~free)
+            self.assertTrue(0 < np.count_nonzero(touching) < 40, touching)
+        expected = engine.check(batch, radii=0.001, type='all', neighbour_skip=1).contacts['candidate']
+        found = proximity.query().to_host()
+        np.testing.assert_array_equal(np.diff(found['candidate_begins']), np.bincount(expected, minlength=40))
+        with self.assertRaisesRegex(ValueError, r'candidates\[1\] is 500'):
+            fp.DeviceProximity(offsets, 0.001, device='host', candidates=[0, 500])
+        points[31, 2] = np.nan
+        with self.assertRaisesRegex(ValueError, 'candidate 0, its point 31: z is nan'):
+            proximity.update(OnDevice(points))
+
     def test_takes_points_of_the_host(self):
         points, offsets = walks(2)
         proximity = fp.DeviceProximity(offsets, 0.01, device='host')
@@ -73,7 +99,7 @@ class Device(unittest.TestCase):
             proximity.update(OnDevice(points, mask=points))
         bad = points.copy()
         bad[3, 1] = np.nan
-        with self.assertRaisesRegex(ValueError, '1 coordinates on the device are not finite'):
+        with self.assertRaisesRegex(ValueError, 'point [0-9]+: [xyz] is .*coordinates must be finite'):
             proximity.update(OnDevice(bad))
         proximity.update(points)
         with self.assertRaisesRegex(ValueError, 'margin is inf'):

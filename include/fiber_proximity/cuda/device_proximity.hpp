@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "fiber_proximity/export.hpp"
@@ -15,14 +16,19 @@ struct PairRule;
 
 /// Contacts of fibres whose points are on a GPU, left there: for simulations whose points never
 /// come to the host. Pairs, parameters and distances are those of every engine, bit for bit.
+///
+/// Fibres may be candidates, as check_fibers() has them, thousands in one assembly: places where a
+/// planner might put cables. A candidate meets itself, and fibres that stand still; the others it
+/// does not know, wherever they are.
 class DeviceProximity {
  public:
-  /// Which pairs are contacts. The rule of loops is the host's: here neighbours are left out by
-  /// their number.
+  /// Which pairs are contacts.
   struct Options {
-    double margin = 0.0;               ///< [m] finite, >= 0
-    std::uint32_t neighbour_skip = 1;  ///< as PairOptions has it
-    Pairing pairing = Pairing::ALL;
+    double margin = 0.0;  ///< [m] finite, >= 0
+    /// As PairOptions has it. No value asks the rule of loops, which check_candidates() knows.
+    std::optional<std::uint32_t> neighbour_skip = 1;
+    Pairing pairing = Pairing::ALL;  ///< not of pairs with what stands still
+    bool with_itself = true;         ///< candidates: contacts of each with itself count
   };
 
   /// Arrays on the device of `count` values each, sorted by a, then b: to be read until the next
@@ -34,6 +40,9 @@ class DeviceProximity {
     const double* s = nullptr;  ///< where on segment a, 0 at its first point and 1 at its second
     const double* t = nullptr;  ///< where on segment b
     const double* distance = nullptr;  ///< signed gap of the surfaces, negative in penetration [m]
+    /// Candidate count + 1 values: which contact is the first of each candidate, and how many there
+    /// are; null without candidates.
+    const std::uint32_t* candidate_begins = nullptr;
   };
 
   /// The same arrays in memory of the host, of the object that has found them: to be read until its
@@ -45,6 +54,7 @@ class DeviceProximity {
     const double* s = nullptr;
     const double* t = nullptr;
     const double* distance = nullptr;
+    const std::uint32_t* candidate_begins = nullptr;
   };
 
   /// The same in memory of the caller: 32 bytes each.
@@ -54,20 +64,30 @@ class DeviceProximity {
     std::vector<double> s;
     std::vector<double> t;
     std::vector<double> distance;
+    std::vector<std::uint32_t> candidate_begins;
   };
 
   /// @param offsets fibre count + 1 values, from 0 to the number of points, on the host
   /// @param radii   [m] one for all fibres, one per fibre, or one per point, on the host
   /// @throws std::invalid_argument as FiberAssembly, std::runtime_error without a GPU that serves
   DeviceProximity(std::vector<std::uint32_t> offsets, std::vector<double> radii);
+  /// With candidates.
+  /// @param candidates candidate count + 1 values, from 0 on: fibres candidates[c] …
+  ///                   candidates[c + 1] − 1 are candidate c, and those from the last value on
+  ///                   stand still
+  DeviceProximity(std::vector<std::uint32_t> offsets, std::vector<double> radii,
+                  std::vector<std::uint32_t> candidates);
   /// On another device than the GPU, for tests and trials.
   DeviceProximity(std::unique_ptr<Device> device, std::vector<std::uint32_t> offsets,
                   std::vector<double> radii);
+  DeviceProximity(std::unique_ptr<Device> device, std::vector<std::uint32_t> offsets,
+                  std::vector<double> radii, std::vector<std::uint32_t> candidates);
   ~DeviceProximity();
   DeviceProximity(const DeviceProximity&) = delete;
   DeviceProximity& operator=(const DeviceProximity&) = delete;
 
   std::size_t point_count() const { return offsets_.back(); }
+  std::size_t candidate_count() const;
 
   /// Takes the points, and needs them no longer. Waits until all that the device has been given
   /// before is done.
@@ -92,10 +112,9 @@ class DeviceProximity {
   std::shared_ptr<void> lock_points(const std::vector<Eigen::Vector3d>& points) const;
 
   /// Finds the contacts, and waits until they are there.
-  /// @throws std::invalid_argument for a margin that is not allowed, std::logic_error before the
-  /// first
-  ///         update(), std::runtime_error where the device's memory does not suffice, saying how
-  ///         much was needed
+  /// @throws std::invalid_argument for a margin that is not allowed and without neighbour_skip,
+  ///         std::logic_error before the first update(), std::runtime_error where the device's
+  ///         memory does not suffice, saying how much was needed
   Contacts query(const Options& options) const;
 
   /// Finds the contacts for the host: each part goes there while the device decides about the next,
@@ -106,7 +125,15 @@ class DeviceProximity {
   /// Copies contacts of the last query() to the host, into the memory there is.
   void copy_to_host(const Contacts& contacts, HostContacts& copy) const;
 
-  /// [s] What the last update() and the last query() took on the device.
+  /// Which candidates have contacts, as check_fibers() says it: with themselves, or with what
+  /// stands still. The first contact ends what is looked for of a candidate. Where the rule of
+  /// loops is asked, the host decides about contacts of a fibre with itself that may have one, if
+  /// their candidate has no others.
+  /// @param touching by candidate, 1 or 0
+  /// @throws as query(), std::logic_error without candidates
+  void check_candidates(const Options& options, std::vector<std::uint8_t>& touching) const;
+
+  /// [s] What the last update() and the last query() or check_candidates() took on the device.
   double device_seconds() const;
 
  private:
@@ -114,7 +141,9 @@ class DeviceProximity {
 
   template <class Number>
   void take(const Number* coordinates);
+  void take_topology(std::vector<double> radii, std::vector<std::uint32_t>* candidates);
   PairRule rule_of(const Options& options) const;
+  PairRule rule_of_contacts(const Options& options) const;
 
   std::vector<std::uint32_t> offsets_;
   std::unique_ptr<Device> device_;
