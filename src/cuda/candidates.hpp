@@ -26,10 +26,11 @@ struct CandidateView {
   }
 };
 
-/// Leaves of the tree that have what some candidates may meet: those before `own_end`, and those
-/// from `still_begin` on.
+/// Leaves of the tree that have what the candidates of one leaf may meet: those before `own_end`,
+/// and those from `still_begin` on.
 struct CandidateLeaves {
   static constexpr std::uint32_t none = 0xFFFFFFFFU;
+  static constexpr int bits_per_level = 5;
 
   std::uint32_t own_end = none;
   std::uint32_t still_begin = none;
@@ -37,6 +38,64 @@ struct CandidateLeaves {
   /// Whether leaves begin … end − 1 have any.
   FIBER_ON_DEVICE bool meet(std::uint64_t begin, std::uint64_t end) const {
     return begin < own_end || end > still_begin;
+  }
+
+  /// Calls with the level and number of the nodes that all of them are below, from one leaf on: of
+  /// the lowest ones, two for each of the two runs at most, as most candidates are small beside the
+  /// tree.
+  template <class Call>
+  FIBER_ON_DEVICE void each_start(std::uint32_t leaf, std::uint32_t leaf_count, int top,
+                                  const Call& call) const {
+    const Nodes own = nodes_of(leaf, own_end, top);
+    const Nodes still = nodes_of(still_begin > leaf ? still_begin : leaf, leaf_count, top);
+    const bool has_own = leaf < own_end;
+    const bool has_still = still_begin != none;
+    const bool are_apart = own.end() <= still.begin();
+    if (own_end == none || (has_own && has_still && !are_apart)) {
+      call(top, 0U);
+      return;
+    }
+    if (has_own) {
+      own.each(call);
+    }
+    if (has_still) {
+      still.each(call);
+    }
+  }
+
+ private:
+  /// One node, or two that follow each other.
+  struct Nodes {
+    int level;
+    std::uint32_t first;
+    std::uint32_t last;
+
+    FIBER_ON_DEVICE std::uint64_t begin() const {
+      return std::uint64_t{first} << (bits_per_level * level);
+    }
+    FIBER_ON_DEVICE std::uint64_t end() const {
+      return (std::uint64_t{last} + 1) << (bits_per_level * level);
+    }
+    template <class Call>
+    FIBER_ON_DEVICE void each(const Call& call) const {
+      call(level, first);
+      if (last != first) {
+        call(level, last);
+      }
+    }
+  };
+
+  /// The lowest nodes that leaves begin … end − 1 are below, if there are any.
+  FIBER_ON_DEVICE static Nodes nodes_of(std::uint32_t begin, std::uint32_t end, int top) {
+    const std::uint64_t last = end > begin ? end - 1 : begin;
+    int level = 1;
+    while (level < top &&
+           (last >> (bits_per_level * level)) - (std::uint64_t{begin} >> (bits_per_level * level)) >
+               1) {
+      ++level;
+    }
+    return {level, static_cast<std::uint32_t>(std::uint64_t{begin} >> (bits_per_level * level)),
+            static_cast<std::uint32_t>(last >> (bits_per_level * level))};
   }
 };
 

@@ -75,14 +75,19 @@ struct FindPairs {
         mine_[lane] = box_of(segment, what_.rule.bound);
       });
       whole_ = warp_.reduce(mine_, [](TreeBox& x, const TreeBox& y) { x.take(y); });
-      warp_.each([&](int lane) {
-        if (lane == 0) {
-          scratch_.stack[0] = static_cast<std::uint32_t>(what_.b.level_count) << place_bits;
-        }
-      });
       warp_.sync();
       find_candidates();
-      int size = 1;
+      int size = 0;
+      leaves_.each_start(
+          leaf_, what_.b.box_counts[0], what_.b.level_count, [&](int level, std::uint32_t node) {
+            warp_.each([&](int lane) {
+              if (lane == 0) {
+                scratch_.stack[size] = static_cast<std::uint32_t>(level) << place_bits | node;
+              }
+            });
+            ++size;
+          });
+      warp_.sync();
       while (size > 0 && !what_.taker.is_over(first_candidate_, last_candidate_)) {
         --size;
         const std::uint32_t entry = scratch_.stack[size];
@@ -141,7 +146,7 @@ struct FindPairs {
     FIBER_ON_DEVICE int go_down(int level, std::uint32_t node, int size) {
       const TreeBox* const boxes = what_.b.boxes[level];
       const std::uint32_t count = what_.b.box_counts[level];
-      constexpr int bits_per_level = 5;
+      constexpr int bits_per_level = CandidateLeaves::bits_per_level;
       const std::uint32_t near = warp_.ballot([&](int lane) {
         const std::uint32_t child = place(node, lane);
         // The leaves below it end here; all earlier ones than this look for it themselves.
