@@ -138,7 +138,7 @@ def resolution_table(rows):
 
 def draw_effects(rows, path):
     """Bars: time of a step and memory, of the base and of what an effect adds to it."""
-    figure, axes = panels(2, 10.0, 3.6)
+    figure, axes = panels(2, 10.0, 1.0 + 0.22 * len(rows))
     names = [row["added"] for row in rows]
     for axis, key, unit in ((axes[0], "us_per_node_step", "µs per node and step"),
                             (axes[1], "bytes_per_node", "bytes per node")):

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "fiber_proximity/environment/triangle_mesh.hpp"
 #include "test/sim/cost_scenes.hpp"
 #include "test/sim/counted_memory.hpp"
 #include "test/sim/joint_scenes.hpp"
@@ -115,6 +116,16 @@ std::vector<SteadyScene> scenes_of_contacts() {
                       }),
                       settling});
   }
+  // One triangle, so that its contacts are always the same ones.
+  const auto sheet = std::make_shared<const TriangleMesh>(
+      std::vector<Vector3d>{{-2.0, -1.0, 0.0}, {2.0, -1.0, 0.0}, {0.0, 2.0, 0.0}},
+      std::vector<TriangleMesh::Triangle>{{0, 1, 2}});
+  scenes.push_back(
+      {"on a mesh", on([=] { return contacts_with(environment_of(sheet), 0.3); }), settling});
+  scenes.push_back({"on a mesh that moves", on([=] {
+                      return contacts_with_moving({going(sheet, {0, 0, 0}, {0.0, 0.0, 0.02})}, 0.3);
+                    }),
+                    settling});
   scenes.push_back(
       {"far from what moves", on([] {
          return contacts_with_moving({going(SphereShape{0.1}, {0.0, 0.0, 3.0}, {1.0, 0.0, 1.0})});

@@ -37,23 +37,23 @@ PointDistance local_distance(const Shape& shape, const Vector3d& point) {
       shape);
 }
 
-/// All pieces within a distance of a segment, in a shape's frame.
-std::vector<ObstaclePiece::Part> parts_near(const Shape& shape, const Vector3d& p0,
-                                            const Vector3d& p1, double within) {
+/// Calls look(part) for the pieces whose boxes are within a distance of a segment, in a shape's
+/// frame.
+template <class Look>
+void visit_near_parts(const Shape& shape, const Vector3d& p0, const Vector3d& p1, double within,
+                      const Look& look) {
   WorldBox box(p0);
   box.extend(p1);
-  std::vector<ObstaclePiece::Part> parts;
   if (const auto* const mesh = std::get_if<MeshPointer>(&shape)) {
-    (*mesh)->visit_near(box, within,
-                        [&](const TriangleCorners& triangle) { parts.emplace_back(triangle); });
+    (*mesh)->visit_near(box, within, [&look](const TriangleCorners& triangle) { look(triangle); });
   } else if (const auto* const octree = std::get_if<OctreePointer>(&shape)) {
-    (*octree)->visit_near(box, within, [&](const Vector3d& center) {
-      parts.emplace_back(ObstaclePiece::Cell{center, (*octree)->resolution()});
-    });
+    const auto look_at = [&](const Vector3d& center) {
+      look(ObstaclePiece::Cell{center, (*octree)->resolution()});
+    };
+    (*octree)->visit_near(box, within, std::cref(look_at));
   } else {
-    parts.emplace_back();
+    look(std::monostate{});
   }
-  return parts;
 }
 
 }  // namespace
@@ -92,19 +92,17 @@ PointDistance ObstaclePiece::distance_from(const Vector3d& point) const {
   return found;
 }
 
-std::vector<ObstaclePiece> near_pieces(const ObstacleShape& shape, const Vector3d& p0,
-                                       const Vector3d& p1, double within) {
+void visit_near_pieces(const ObstacleShape& shape, const Vector3d& p0, const Vector3d& p1,
+                       double within, const std::function<void(const ObstaclePiece&)>& visit) {
   const Vector3d q0 = shape.to_shape * p0;
   const Vector3d q1 = shape.to_shape * p1;
-  std::vector<ObstaclePiece> pieces;
-  for (const ObstaclePiece::Part& part : parts_near(*shape.shape, q0, q1, within)) {
+  visit_near_parts(*shape.shape, q0, q1, within, [&](const ObstaclePiece::Part& part) {
     const ObstaclePiece piece(shape, part);
     const double s = p0 == p1 ? 0.0 : piece.nearest_parameter(p0, p1);
     if (piece.distance_from((1.0 - s) * p0 + s * p1).distance <= within) {
-      pieces.push_back(piece);
+      visit(piece);
     }
-  }
-  return pieces;
+  });
 }
 
 namespace {

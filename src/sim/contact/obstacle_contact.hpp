@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <array>
+#include <functional>
 #include <variant>
 #include <vector>
 
@@ -66,10 +67,11 @@ class ObstaclePiece {
   Part part_;
 };
 
-/// The pieces of a shape within a distance of a segment [m]. Each of them has a contact of its own:
-/// a rod may slide from one to the next.
-std::vector<ObstaclePiece> near_pieces(const ObstacleShape& shape, const Eigen::Vector3d& p0,
-                                       const Eigen::Vector3d& p1, double within);
+/// Calls visit(piece) for the pieces of a shape within a distance of a segment [m]. Each of them
+/// has a contact of its own: a rod may slide from one to the next.
+void visit_near_pieces(const ObstacleShape& shape, const Eigen::Vector3d& p0,
+                       const Eigen::Vector3d& p1, double within,
+                       const std::function<void(const ObstaclePiece&)>& visit);
 
 /// A node or an edge of a rod, and a convex part of an obstacle that it may touch.
 ///

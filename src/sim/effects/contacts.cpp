@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 
 #include "src/sim/contact/contact_neighbours.hpp"
 #include "src/sim/contact/contact_set.hpp"
@@ -304,9 +305,7 @@ void EnvironmentContact::add(const Rods& rods, const Contact& contact, double wi
   }
   const Vector3d& p0 = rods.positions[node];
   const Vector3d& p1 = is_edge ? rods.positions[node + 1] : p0;
-  for (const ObstaclePiece& piece : near_pieces(shape, p0, p1, within)) {
-    add_piece(piece);
-  }
+  visit_near_pieces(shape, p0, p1, within, std::cref(add_piece));
 }
 
 }  // namespace fiber

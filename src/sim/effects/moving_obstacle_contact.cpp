@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "fiber_proximity/sim/moving_obstacles.hpp"
 #include "src/environment/allowed_contacts.hpp"
@@ -122,14 +123,14 @@ class MovingObstacleContact::Finder {
                                  ? options_.stiffness
                                  : material_contact_stiffness(rods_.sections[rod], radius);
     const Barrier barrier = Barrier::around(radius, stiffness);
+    const auto add_piece = [&](const ObstaclePiece& piece) {
+      found_.obstacle_contacts.push_back({rod, edge, part, barrier, options_.restitution, piece});
+    };
     if (shape.is_convex()) {
-      found_.obstacle_contacts.push_back(
-          {rod, edge, part, barrier, options_.restitution, ObstaclePiece(shape, {})});
+      add_piece(ObstaclePiece(shape, {}));
       return;
     }
-    for (const ObstaclePiece& piece : near_pieces(shape, p0, p1, within)) {
-      found_.obstacle_contacts.push_back({rod, edge, part, barrier, options_.restitution, piece});
-    }
+    visit_near_pieces(shape, p0, p1, within, std::cref(add_piece));
   }
 
   const EnvironmentContact::Options& options_;
