@@ -49,7 +49,7 @@ class SkinRun {
     return name.str();
   }
 
-  /// Builds and finds all there is, so that frames find memory and candidates.
+  /// Updates and finds all there is, so that frames find memory and candidates.
   void warm_up(const FiberAssembly& fibers, QueryResult& result) {
     engine_.update(fibers);
     engine_.query(QueryOptions(), result);
@@ -99,6 +99,9 @@ class SkinRun {
   QueryCounts counts_;  // of all frames
 };
 
+/// Frames before those that are measured: as many as the choice of a skin needs to begin with.
+constexpr std::uint32_t warm_up_frames = 4;
+
 /// A swaying scene, and run_tree on it with every skin.
 class Coherence {
  public:
@@ -119,7 +122,7 @@ class Coherence {
   /// In turns, so that what slows the machine down for a while slows all of them; who goes first
   /// changes from frame to frame.
   void measure() {
-    for (std::uint32_t frame = 0; frame <= request_.frames; ++frame) {
+    for (std::uint32_t frame = 0; frame < warm_up_frames + request_.frames; ++frame) {
       if (is_scene_file(request_.scene)) {
         fibers_ = scene_(frame);
       } else {
@@ -128,9 +131,9 @@ class Coherence {
       agreement_.begin_frame(frame);
       for (std::size_t turn = 0; turn < runs_.size(); ++turn) {
         SkinRun& run = *runs_[(frame + turn) % runs_.size()];
-        progress_.show("frame " + std::to_string(frame) + " of " + std::to_string(request_.frames) +
-                       ": " + run.name());
-        if (frame == 0) {
+        progress_.show("frame " + std::to_string(frame) + " of " +
+                       std::to_string(warm_up_frames + request_.frames) + ": " + run.name());
+        if (frame < warm_up_frames) {
           run.warm_up(fibers_, agreement_.next());
         } else {
           run.measure_frame(fibers_, agreement_.next());

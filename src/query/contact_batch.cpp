@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <limits>
 
 #include "src/bounds/bounding_volume.hpp"
 #include "src/hierarchy/run_tree_kernels.hpp"
@@ -139,25 +140,40 @@ SearchSize ContactBatch::estimate(const RunTreeView& tree, const NarrowPhase& te
   // A larger part tells more than costs need; much more than any skin can pay for is enough to
   // know.
   constexpr std::uint32_t least_groups = 32;
+  constexpr std::uint32_t most_groups = 96;
   constexpr std::uint32_t part = 64;
   constexpr std::uint64_t most_pairs = 1U << 18U;
   const std::uint32_t groups = tree.group_count();
-  const std::uint32_t wanted = std::max(least_groups, groups / part);
+  const std::uint32_t wanted = std::clamp(groups / part, least_groups, most_groups);
   const std::uint32_t stride = std::max(1U, groups / wanted);
+  const std::uint32_t first = stride / 2;
+  const std::uint32_t searched = groups <= first ? 0 : (groups - first + stride - 1) / stride;
   QueryLimits limits{QueryOptions()};
   limits.pairs = most_pairs;
   CandidateCount count(limits);
-  keys_.clear();
-  CandidateSink sink(test, round_up(bound), prunes, count, keys_);
-  QueryCounts counts;
-  std::uint32_t searched = 0;
-  for (std::uint32_t group = stride / 2; group < groups && !count.is_too_much(); group += stride) {
-    find_near_segments(tree, group, group + 1, tree, sink, counts.node_tests, counts.node_overlaps);
-    ++searched;
+  jobs_.resize(std::max<std::size_t>(jobs_.size(), searched));
+  for_each_of(searched, [&](std::size_t index) {
+    Job& job = jobs_[index];
+    job.keys.clear();
+    job.counts = {};
+    const std::uint32_t group = first + static_cast<std::uint32_t>(index) * stride;
+    CandidateSink sink(test, round_up(bound), prunes, count, job.keys);
+    if (!count.is_too_much()) {
+      find_near_segments(tree, group, group + 1, tree, sink, job.counts.node_tests,
+                         job.counts.node_overlaps);
+    }
+  });
+  if (count.is_too_much()) {
+    constexpr double too_many = std::numeric_limits<double>::infinity();
+    return {too_many, too_many};
   }
+  SearchSize size;
   const double scale = searched == 0 ? 0.0 : static_cast<double>(groups) / searched;
-  return {scale * static_cast<double>(counts.node_tests),
-          scale * static_cast<double>(keys_.size())};
+  for (std::uint32_t index = 0; index < searched; ++index) {
+    size.node_tests += scale * static_cast<double>(jobs_[index].counts.node_tests);
+    size.pairs += scale * static_cast<double>(jobs_[index].keys.size());
+  }
+  return size;
 }
 
 ContactBatch::Found ContactBatch::replace(const std::vector<std::uint64_t>& old_keys,

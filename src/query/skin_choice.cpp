@@ -15,14 +15,16 @@ constexpr double fit_ns = 11.0;    // a segment
 constexpr double motion_ns = 3.6;  // a point
 constexpr double test_ns = 6.6;    // a node's children
 constexpr double find_ns = 200.0;  // a pair that a search comes upon, its sorting included
-constexpr double judge_ns = 70.0;  // a pair
+constexpr double judge_ns = 80.0;  // a pair
 
 constexpr double first_frames = 4.0;  // that the first skin thought of lasts for
 constexpr double least_frames = 2.0;
 constexpr double most_frames = 4096.0;
+constexpr double reserve = 1.05;             // by which points may move more than they did
 constexpr double step = 1.5;                 // from one skin that is thought of to the next
 constexpr double least_skin = 1e-150;        // [m]
 constexpr std::uint32_t longest_wait = 256;  // [frames]
+constexpr std::uint32_t longest_kept = 8;    // [stretches]
 
 // A skin must save this part of a frame, as costs are estimates.
 constexpr double least_gain = 0.05;
@@ -67,15 +69,23 @@ void SkinChoice::begin_stretch(const FiberAssembly& fibers, const std::vector<do
   } else if (moved == nullptr) {
     wait_ -= std::min(wait_, 1U);
   } else {
+    motion_ = motion_of_most(fibers, *moved) / frames_;
     if (frames_meant_ > 0.0) {
+      const double before = lasted_;
       lasted_ = std::min(4.0, frames_ / frames_meant_);
       next_wait_ = 1;
+      const bool is_as_before = lasted_ < step * before && before < step * lasted_;
+      kept_for_ = is_as_before ? kept_for_ : 0;
     }
-    motion_ = motion_of_most(fibers, *moved) / frames_;
-    frames_meant_ = 0.0;
-    skin_ = 0.0;
-    pays_ = false;
-    is_due_ = true;
+    if (kept_for_ > 0) {
+      --kept_for_;
+      last_for(last_frames_);
+    } else {
+      frames_meant_ = 0.0;
+      skin_ = 0.0;
+      pays_ = false;
+      is_due_ = true;
+    }
   }
   are_too_many_ = false;
   frames_ = 0;
@@ -87,9 +97,6 @@ void SkinChoice::decide(const FiberAssembly& fibers, const Estimate& estimate) {
     return;
   }
   is_due_ = false;
-  // Two points may come towards each other. Those that stand still are measured by more than
-  // nothing.
-  const auto skin_of = [&](double frames) { return std::max(least_skin, 2.0 * frames * motion_); };
   double best = 0.0;
   double least = (1.0 - least_gain) * cost(0.0, fibers, estimate(0.0));
   const auto is_better = [&](double frames) {
@@ -117,9 +124,22 @@ void SkinChoice::decide(const FiberAssembly& fibers, const Estimate& estimate) {
     do_without();
     return;
   }
-  frames_meant_ = best;
-  last_frames_ = best;
-  skin_ = skin_of(best);
+  kept_for_ = next_kept_for_;
+  next_kept_for_ = std::min(longest_kept, 2 * next_kept_for_);
+  last_for(best);
+}
+
+/// [m] The tree is fitted in the first of the frames. Two points may come towards each other. Those
+/// that stand still are measured by more than nothing.
+double SkinChoice::skin_of(double frames) const {
+  return std::max(least_skin, 2.0 * reserve * (frames - 1.0) * motion_);
+}
+
+/// Takes the skin that is meant to last for so many frames.
+void SkinChoice::last_for(double frames) {
+  frames_meant_ = frames;
+  last_frames_ = frames;
+  skin_ = skin_of(frames);
   pays_ = true;
 }
 
@@ -161,6 +181,8 @@ void SkinChoice::do_without() {
   frames_meant_ = 0.0;
   skin_ = 0.0;
   pays_ = false;
+  kept_for_ = 0;
+  next_kept_for_ = 1;
   wait_ = next_wait_;
   next_wait_ = std::min(longest_wait, 2 * next_wait_);
 }

@@ -24,8 +24,9 @@ struct SearchSize {
 /// A stretch is the frames from one fit of the tree to the next. A skin that lasts for n frames
 /// costs a search for more pairs once in n frames, and the judging of all these in each of them.
 /// The last stretch tells how far points move in a frame; a part of the search tells how many pairs
-/// a skin has. The n that costs least is taken. Where none pays, motion is looked at again after 1,
-/// 2, 4 … 256 frames.
+/// a skin has. The n that costs least is taken, and kept for the next 1, 2, 4, 8 stretches as long
+/// as they last for about as many frames; its skin goes by how far points move. Where none pays,
+/// motion is looked at again after 1, 2, 4 … 256 frames.
 ///
 /// Costs are counts times the time that one takes, not what a clock says: the same input gives the
 /// same choices.
@@ -83,6 +84,8 @@ class SkinChoice {
  private:
   double cost(double frames, const FiberAssembly& fibers, const SearchSize& search) const;
   double motion_of_most(const FiberAssembly& fibers, const std::vector<double>& moved);
+  double skin_of(double frames) const;
+  void last_for(double frames);
   void do_without();
 
   const bool is_automatic_;
@@ -95,10 +98,12 @@ class SkinChoice {
   double motion_ = 0.0;     // [m] a frame
   std::uint32_t wait_ = 1;  // frames until motion is asked for, where no skin pays
   std::uint32_t next_wait_ = 2;
-  std::uint32_t frames_ = 0;   // of this stretch
-  double frames_meant_ = 0.0;  // that the skin is to last for; 0 without one
-  double last_frames_ = 0.0;   // that the last skin was to last for
-  double lasted_ = 1.0;        // the last skin, in units of that
+  std::uint32_t frames_ = 0;    // of this stretch
+  double frames_meant_ = 0.0;   // that the skin is to last for; 0 without one
+  double last_frames_ = 0.0;    // that the last skin was to last for
+  double lasted_ = 1.0;         // the last skin, in units of that
+  std::uint32_t kept_for_ = 0;  // stretches for which that is kept
+  std::uint32_t next_kept_for_ = 1;
   std::vector<std::pair<double, std::uint32_t>> sample_;  // of fibres: motion [m] and points
 };
 
