@@ -52,5 +52,6 @@ cmake_arguments=("${core_arguments[@]}" -DFIBER_PROXIMITY_SANITIZE=thread
   -DTBB_DIR="$build/tbb/install/lib/cmake/TBB")
 build_package threaded_tests
 # One after the other: the threads of one test are to run at the same time. No test goes on after a
-# race, whose report is long enough.
-TSAN_OPTIONS=halt_on_error=1 run_tests --label-regex threaded
+# race, whose report is long enough. One is left out that is minutes of brute force on one thread:
+# the others of its suite search as it does.
+TSAN_OPTIONS=halt_on_error=1 GTEST_FILTER='-ShrinkingSearchTest.FindsWhatBruteForce*' run_tests --label-regex threaded
