@@ -134,8 +134,8 @@ TEST(Candidates, OfAllFamiliesAreAlone) {
       }
     }
   }
-  EXPECT_GT(contacts, 1000U);
-  EXPECT_GT(touching, 100U);
+  EXPECT_GT(contacts, 1000U / rounds_less);
+  EXPECT_GT(touching, 100U / rounds_less);
 }
 
 /// Far more than a leaf, or a node, has; all in one place, and some of them the same.
@@ -156,7 +156,7 @@ TEST(Candidates, ThousandsThatOverlapAreAlone) {
     device->update_from_host(batch.points);
     Options options{0.01};
     const DeviceProximity::HostArrays arrays = device->query_to_host(options);
-    EXPECT_GT(expect_candidates(arrays, arrays.count, batch, options), 1000U);
+    EXPECT_GT(expect_candidates(arrays, arrays.count, batch, options), candidates.size() / 4);
     options.neighbour_skip.reset();
     const std::size_t touching = expect_touching(*device, batch, options);
     EXPECT_GT(touching, candidates.size() / 10);
