@@ -343,7 +343,8 @@ HWY_EXPORT(find_near_segments_lanes);
 bool find_near_segments(const RunTreeView& a, std::uint32_t begin, std::uint32_t end,
                         const RunTreeView& b, PairSink& sink, std::uint64_t& tests,
                         std::uint64_t& overlaps) {
-  return HWY_DYNAMIC_DISPATCH(find_near_segments_lanes)(a, begin, end, b, sink, tests, overlaps);
+  return b.group_count() == 0 ||
+         HWY_DYNAMIC_DISPATCH(find_near_segments_lanes)(a, begin, end, b, sink, tests, overlaps);
 }
 
 }  // namespace fiber

@@ -162,4 +162,18 @@ FIBER_PROXIMITY_EXPORT bool find_near_segments(const RunTreeView& a, std::uint32
                                                PairSink& sink, std::uint64_t& tests,
                                                std::uint64_t& overlaps);
 
+/// Does so group by group, as long as it is not over: where no candidates are, nobody else would
+/// look at a clock.
+template <class IsOver>
+bool find_near_segments_until(const IsOver& is_over, const RunTreeView& a, std::uint32_t begin,
+                              std::uint32_t end, const RunTreeView& b, PairSink& sink,
+                              std::uint64_t& tests, std::uint64_t& overlaps) {
+  for (std::uint32_t group = begin; group < end; ++group) {
+    if (is_over() || !find_near_segments(a, group, group + 1, b, sink, tests, overlaps)) {
+      return false;
+    }
+  }
+  return true;
+}
+
 }  // namespace fiber

@@ -32,18 +32,6 @@ GlobalSegment name_at(const LocalFibers& fibers, std::uint32_t point) {
   return fibers.global_id(id.fiber, id.segment);
 }
 
-bool offer_all_of(const RunTree& halo, const RunTree& own, PairSink& sink,
-                  const std::function<bool()>& is_over, QueryCounts& counts) {
-  const std::uint32_t groups = own.view().group_count() == 0 ? 0 : halo.view().group_count();
-  for (std::uint32_t group = 0; group < groups; ++group) {
-    if (is_over() || !find_near_segments(halo.view(), group, group + 1, own.view(), sink,
-                                         counts.node_tests, counts.node_overlaps)) {
-      return false;
-    }
-  }
-  return true;
-}
-
 }  // namespace
 
 void offer_ordered_pairs(const LocalFibers& halo, const LocalFibers& own, PairSink& sink,
@@ -80,7 +68,9 @@ void offer_ordered_pairs(const LocalFibers& halo, const LocalFibers& own, PairSi
                {halo_starts.begin() + static_cast<std::ptrdiff_t>(cuts[of_halo]),
                 halo_starts.begin() + static_cast<std::ptrdiff_t>(cuts[of_halo + 1])});
     for (std::size_t part = 0; part <= of_halo; ++part) {
-      if (!offer_all_of(tree, trees[part], sink, is_over, counts)) {
+      if (!find_near_segments_until(is_over, tree.view(), 0, tree.view().group_count(),
+                                    trees[part].view(), sink, counts.node_tests,
+                                    counts.node_overlaps)) {
         return;
       }
     }

@@ -15,17 +15,6 @@
 namespace fiber {
 namespace {
 
-/// Offers the pairs of two trees, or of one, that may come within the sink's bound.
-/// @param is_over asked between groups: where no candidates are, nobody else would look at a
-/// deadline
-void offer_all(const RunTreeView& a, const RunTreeView& b, PairSink& sink,
-               const std::function<bool()>& is_over, QueryCounts& counts) {
-  const std::uint32_t groups = b.group_count() == 0 ? 0 : a.group_count();
-  for (std::uint32_t group = 0; group < groups && !is_over(); ++group) {
-    find_near_segments(a, group, group + 1, b, sink, counts.node_tests, counts.node_overlaps);
-  }
-}
-
 /// Points that move further than any engine allows are beyond the range of float.
 /// @throws std::invalid_argument as SweptFibers
 void check_ways(const RunTree& tree, const FiberAssembly& before, const FiberAssembly& after) {
@@ -201,7 +190,9 @@ void RunTreeEngine::do_query_shape(const FiberAssembly& shape, const FiberAssemb
 void RunTreeEngine::offer_pairs(PairSink& sink, const std::function<bool()>& is_over,
                                 QueryCounts& counts) const {
   WideningSink wide(sink, 2.0 * moved_since_fit());
-  offer_all(tree_.view(), tree_.view(), wide, is_over, counts);
+  const RunTreeView& tree = tree_.view();
+  find_near_segments_until(is_over, tree, 0, tree.group_count(), tree, wide, counts.node_tests,
+                           counts.node_overlaps);
 }
 
 void RunTreeEngine::offer_pairs_with(const FiberAssembly& shape, PairSink& sink,
@@ -210,7 +201,8 @@ void RunTreeEngine::offer_pairs_with(const FiberAssembly& shape, PairSink& sink,
   RunTree shape_tree;
   shape_tree.build({shape, tree_.origin()});
   WideningSink wide(sink, moved_since_fit());
-  offer_all(shape_tree.view(), tree_.view(), wide, is_over, counts);
+  find_near_segments_until(is_over, shape_tree.view(), 0, shape_tree.view().group_count(),
+                           tree_.view(), wide, counts.node_tests, counts.node_overlaps);
 }
 
 /// All contacts of the fibres with each other: from candidates that are kept, if there are such.

@@ -75,27 +75,18 @@ class PartSink final : public CollectorSink {
   std::uint64_t told_ = 0;
 };
 
-/// Searches some groups of a, one by one where somebody may look at the clock.
-template <class Sink, class IsOver>
-void search(const RunTreeView& a, std::uint32_t begin, std::uint32_t end, const RunTreeView& b,
-            Sink& sink, const IsOver& is_over, QueryCounts& counts) {
-  for (std::uint32_t group = begin; group < end && !is_over(); ++group) {
-    find_near_segments(a, group, group + 1, b, sink, counts.node_tests, counts.node_overlaps);
-  }
-}
-
 }  // namespace
 
 void ShrinkingSearch::find(const RunTreeView& a, const RunTreeView& b, double moved,
                            tbb::task_arena& arena, PairCollector& whole, QueryResult& result) {
   CollectorSink sink(whole, moved);
-  const std::uint32_t groups = b.group_count() == 0 ? 0 : a.group_count();
+  const std::uint32_t groups = a.group_count();
   std::uint32_t size = least_groups;
   for (std::uint32_t begin = 0; begin < groups && !whole.done_by_now();) {
     const std::uint32_t end = std::min(groups, begin + size);
     if (!find_together(a, b, moved, arena, begin, end, whole)) {
-      search(
-          a, begin, end, b, sink, [&] { return whole.done_by_now(); }, result.counts);
+      find_near_segments_until([&] { return whole.done_by_now(); }, a, begin, end, b, sink,
+                               result.counts.node_tests, result.counts.node_overlaps);
     }
     begin = end;
     size = begin;
@@ -121,9 +112,10 @@ bool ShrinkingSearch::find_together(const RunTreeView& a, const RunTreeView& b, 
     PairCollector& part = *jobs_[job].part;
     PartSink sink(part, moved, round, job);
     const std::uint32_t first = begin + job * groups;
-    search(
-        a, first, std::min(end, first + groups), b, sink,
-        [&] { return round.is_over(job) || part.done_by_now(); }, jobs_[job].result.counts);
+    QueryCounts& counts = jobs_[job].result.counts;
+    find_near_segments_until([&] { return round.is_over(job) || part.done_by_now(); }, a, first,
+                             std::min(end, first + groups), b, sink, counts.node_tests,
+                             counts.node_overlaps);
     sink.look();
     round.end(job, part);
   };
