@@ -31,6 +31,7 @@ add_library(fiber_proximity_sim SHARED
   src/sim/overlaps.cpp
   src/sim/separation.cpp
   src/sim/resolution.cpp
+  src/sim/inertia.cpp
   src/sim/rods.cpp
   src/sim/sections.cpp
   src/sim/solver/joint_solver.cpp

@@ -120,8 +120,8 @@ void Rods::add(const std::vector<Eigen::Vector3d>& points, double radius,
   if (!section_lengths.empty()) {
     set_sections(count() - 1, {});
   }
-  if (!rigid_edges.empty()) {
-    rigid_edges.resize(positions.size(), 0);
+  if (!mass_couplings.empty()) {
+    mass_couplings.resize(positions.size(), 0.0);
   }
   if (!edge_radii.empty()) {
     add_edge_radii();

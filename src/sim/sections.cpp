@@ -156,11 +156,13 @@ void set_lengths(Rods& rods, std::uint32_t rod, const std::vector<RodSectionPart
   }
 }
 
-void mark_rigid_edges(Rods& rods, std::uint32_t rod, const std::vector<RodSectionPart>& parts) {
+void couple_masses(Rods& rods, std::uint32_t rod, const std::vector<RodSectionPart>& parts) {
   for (const RodSectionPart& part : parts) {
     if (part.is_rigid) {
-      rods.rigid_edges.resize(rods.positions.size(), 0);
-      rods.rigid_edges[edges_of(rods, rod, part.part).value().first] = 1;
+      rods.mass_couplings.resize(rods.positions.size(), 0.0);
+      const std::uint32_t edge = edges_of(rods, rod, part.part).value().first;
+      rods.mass_couplings[edge] =
+          part.section.mass_per_length * (part.part.to - part.part.from) / 6.0;
     }
   }
 }
@@ -254,7 +256,7 @@ void Rods::set_sections(std::uint32_t rod, const std::vector<RodSectionPart>& pa
     return;
   }
   set_radii(*this, rod, parts);
-  mark_rigid_edges(*this, rod, parts);
+  couple_masses(*this, rod, parts);
   double begin = 0.0;   // of the edge after a node
   double before = 0.0;  // the middle of the edge before it
   for (std::uint32_t i = first(rod); i < end(rod); ++i) {

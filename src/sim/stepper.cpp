@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "fiber_proximity/sim/moving_obstacles.hpp"
+#include "src/sim/inertia.hpp"
 #include "src/sim/require.hpp"
 #include "src/sim/solver/stage_solver.hpp"
 
@@ -56,12 +57,7 @@ void combine(const std::array<WeightedState, 2>& states, RodState& sum) {
 double kinetic_energy(const Rods& rods) {
   double energy = 0.0;
   for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
-    for (std::uint32_t i = rods.first(rod); i < rods.end(rod); ++i) {
-      energy += 0.5 * rods.masses[i] * rods.velocities[i].squaredNorm();
-      if (!rods.spins.empty()) {
-        energy += 0.5 * rods.section_inertia(rod, i) * rods.spins[i] * rods.spins[i];
-      }
-    }
+    add_kinetic_energy(rods, rod, energy);
   }
   return energy;
 }

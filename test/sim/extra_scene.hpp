@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <memory>
-#include <numeric>
 #include <ostream>
 #include <string>
 #include <utility>
@@ -11,6 +10,7 @@
 #include "fiber_proximity/sim/joints.hpp"
 #include "fiber_proximity/sim/loads.hpp"
 #include "test/sim/moving_scene.hpp"
+#include "test/sim/random_rods.hpp"
 #include "validation/sim/contact_scenes.hpp"
 
 namespace fiber::test {
@@ -26,12 +26,6 @@ inline std::string name_of(Extra extra) {
 }
 
 inline std::ostream& operator<<(std::ostream& out, Extra extra) { return out << name_of(extra); }
-
-/// How far from a rod's first node another one is, as Rods::set_sections() adds lengths up [m].
-inline double arc_to(const Rods& rods, std::uint32_t rod, std::uint32_t node) {
-  const auto first = rods.rest_lengths.begin() + rods.first(rod);
-  return std::accumulate(first, first + node, 0.0);
-}
 
 /// Makes an edge rigid, half as thick again and heavier than the rest.
 inline void add_plug(Rods& rods, std::uint32_t rod, std::uint32_t edge) {

@@ -45,6 +45,8 @@ TEST(Motion, ARigidPendulumSwingsWithTheEllipticIntegral) {
                 1e-3 * exact);
     EXPECT_NEAR(simulated_pendulum_period(50, angle, 0.01) / rod_pendulum_period(), exact,
                 one_percent * exact);
+    EXPECT_NEAR(simulated_plug_period(angle, 0.005) / rod_pendulum_period(), exact, 1e-3 * exact)
+        << "a bar, not two masses";
   }
 }
 

@@ -2,12 +2,19 @@
 
 #include <Eigen/Geometry>
 #include <memory>
+#include <numeric>
 #include <vector>
 
 #include "fiber_proximity/sim/rods.hpp"
 #include "test/support/random.hpp"
 
 namespace fiber::test {
+
+/// How far from a rod's first node another one is, as Rods::set_sections() adds lengths up [m].
+inline double arc_to(const Rods& rods, std::uint32_t rod, std::uint32_t node) {
+  const auto first = rods.rest_lengths.begin() + rods.first(rod);
+  return std::accumulate(first, first + node, 0.0);
+}
 
 /// A chain of edges of about the given length, each of which turns by a random part of a right
 /// angle.
@@ -62,11 +69,19 @@ inline void give_velocities(Rods& rods, Random& random, double speed) {
   }
 }
 
-/// Kinetic energy of a rod's nodes and of its edges' spins [J].
+/// Kinetic energy of a rod's nodes and of its edges' spins [J]; of a rigid part, that of a bar
+/// whose velocity changes evenly from end to end.
 inline double kinetic_energy(const Rods& rods, std::uint32_t rod) {
   double energy = 0.0;
   for (std::uint32_t i = rods.first(rod); i < rods.end(rod); ++i) {
     energy += 0.5 * rods.masses[i] * rods.velocities[i].squaredNorm();
+    if (rods.is_rigid(i)) {
+      const double mass = 6.0 * rods.mass_couplings[i];
+      const Eigen::Vector3d first = rods.velocities[i];
+      const Eigen::Vector3d last = rods.velocities[i + 1];
+      energy += mass / 6.0 * (first.squaredNorm() + first.dot(last) + last.squaredNorm());
+      energy -= mass / 4.0 * (first.squaredNorm() + last.squaredNorm());
+    }
   }
   for (std::uint32_t i = rods.first(rod); i + 1 < rods.end(rod) && !rods.spins.empty(); ++i) {
     energy += 0.5 * rods.sections[rod].inertia_per_length * rods.rest_lengths[i] * rods.spins[i] *

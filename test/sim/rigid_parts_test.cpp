@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numeric>
 
 #include "fiber_proximity/sim/effects.hpp"
 #include "fiber_proximity/sim/loads.hpp"
@@ -25,18 +24,13 @@ std::vector<Vector3d> joined(std::vector<Vector3d> points, const std::vector<Vec
   return points;
 }
 
-/// Where an edge begins, as set_sections() adds up lengths.
-double arc_of(const Rods& rods, std::uint32_t node) {
-  return std::accumulate(rods.rest_lengths.begin(), rods.rest_lengths.begin() + node, 0.0);
-}
-
 /// A rod of 1 m along x that is rigid from 0.4 to 0.6 m, where it is one edge.
 Rods rod_with_plug() {
   Rods rods;
   rods.add(joined(joined(straight({0, 0, 0}, {0.4, 0, 0}, 16), {{0.4, 0, 0}, {0.6, 0, 0}}),
                   straight({0.6, 0, 0}, {1, 0, 0}, 16)),
            0.01, soft);
-  rods.set_sections(0, {{{arc_of(rods, 16), arc_of(rods, 17)}, plug, 0.03, true}});
+  rods.set_sections(0, {{{arc_to(rods, 0, 16), arc_to(rods, 0, 17)}, plug, 0.03, true}});
   return rods;
 }
 
@@ -91,7 +85,8 @@ TEST(RigidParts, HaveMassesOfTheirOwn) {
 TEST(RigidParts, AtAClampedEnd) {
   Rods rods;
   rods.add(joined({{0, 0, 0}, {0.2, 0, 0}}, straight({0.2, 0, 0}, {1, 0, 0}, 32)), 0.01, soft);
-  rods.set_sections(0, {{{0.0, arc_of(rods, 1)}, {5e4, 1e4, 1e4, 3.0, 4e-4}, std::nullopt, true}});
+  rods.set_sections(0,
+                    {{{0.0, arc_to(rods, 0, 1)}, {5e4, 1e4, 1e4, 3.0, 4e-4}, std::nullopt, true}});
   constexpr double force = 0.01;
   const Rods after = loaded(std::move(rods), {0.0, 0.0, -force}, 0.0);
   const double expected = force * std::pow(0.8, 3) / 3.0;
@@ -104,9 +99,9 @@ TEST(RigidParts, DerivativesAreThoseOfTheEnergy) {
   for (int round = 0; round < 20; ++round) {
     Rods rods;
     rods.add(random_chain(random, 6, 0.3), 0.01, random_section(random));
-    rods.set_sections(0,
-                      {{{arc_of(rods, 2), arc_of(rods, 3)}, random_section(random), 0.02, true},
-                       {{arc_of(rods, 4), arc_of(rods, 5)}, random_section(random), 0.03, true}});
+    rods.set_sections(
+        0, {{{arc_to(rods, 0, 2), arc_to(rods, 0, 3)}, random_section(random), 0.02, true},
+            {{arc_to(rods, 0, 4), arc_to(rods, 0, 5)}, random_section(random), 0.03, true}});
     std::vector<std::shared_ptr<Effect>> effects{
         std::make_shared<Stretch>(), std::make_shared<Bend>(), std::make_shared<Damping>(0.02)};
     if (round % 2 == 0) {
@@ -147,8 +142,8 @@ TEST(RigidParts, RadiiAreThoseOfEdges) {
 TEST(RigidParts, AtAnEndOrOfSeveralEdgesHaveTheirRadiiAlone) {
   Rods rods;
   rods.add(straight({0, 0, 0}, {1, 0, 0}, 10), 0.01, soft);
-  rods.set_sections(0, {{{0.0, arc_of(rods, 1)}, plug, 0.03, true},
-                        {{arc_of(rods, 4), arc_of(rods, 7)}, plug, 0.02, false}});
+  rods.set_sections(0, {{{0.0, arc_to(rods, 0, 1)}, plug, 0.03, true},
+                        {{arc_to(rods, 0, 4), arc_to(rods, 0, 7)}, plug, 0.02, false}});
   EXPECT_EQ(rods.assembly_radii(), (std::vector<double>{0.03, 0.01, 0.01, 0.01, 0.01, 0.02, 0.02,
                                                         0.01, 0.01, 0.01, 0.01}));
 }
@@ -160,7 +155,7 @@ TEST(RigidParts, ThatCannotBeAreRefused) {
     return error_of([&] { rods.set_sections(0, parts); });
   };
   const auto part = [&](std::uint32_t from, std::uint32_t to) {
-    return RodPart{arc_of(rods, from), arc_of(rods, to)};
+    return RodPart{arc_to(rods, 0, from), arc_to(rods, 0, to)};
   };
   EXPECT_EQ(error({{{0.15, 0.5}, plug, 0.02}}),
             "rod 0: section 0 has a radius of its own or is rigid, it must go from one node to "
@@ -172,7 +167,7 @@ TEST(RigidParts, ThatCannotBeAreRefused) {
   EXPECT_EQ(error({{part(1, 2), plug, -1.0}}),
             "rod 0: section 0 has the radius -1.000000, it must be positive and finite");
   EXPECT_TRUE(rods.edge_radii.empty());
-  EXPECT_TRUE(rods.rigid_edges.empty());
+  EXPECT_TRUE(rods.mass_couplings.empty());
   EXPECT_TRUE(rods.section_lengths.empty());
 }
 

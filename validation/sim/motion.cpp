@@ -115,15 +115,35 @@ double period_of_swing(const Rods& rods, Effects all, double step) {
   return zeros.period();
 }
 
-double simulated_pendulum_period(int segments, double angle, double step) {
+namespace {
+
+constexpr RodSection pendulum_section{1e5, 1e3, 1.0, 1.0, 1e-4};
+
+Rods pendulum(int segments, double angle) {
   Rods rods;
   rods.add(straight({0, 0, 0}, {std::sin(angle), 0, -std::cos(angle)}, segments), 0.01,
-           {1e5, 1e3, 1.0, 1.0, 1e-4});
+           pendulum_section);
+  return rods;
+}
+
+double period_of(Rods rods, double step) {
   auto pinned = hold(rods, {pin(0, Vector3d::Zero())});
   return period_of_swing(rods,
                          effects(std::make_unique<Gravity>(gravity), std::make_unique<Stretch>(),
                                  std::make_unique<Bend>(), std::move(pinned)),
                          step);
+}
+
+}  // namespace
+
+double simulated_pendulum_period(int segments, double angle, double step) {
+  return period_of(pendulum(segments, angle), step);
+}
+
+double simulated_plug_period(double angle, double step) {
+  Rods rods = pendulum(1, angle);
+  rods.set_sections(0, {{{0.0, rods.rest_lengths[0]}, pendulum_section, std::nullopt, true}});
+  return period_of(std::move(rods), step);
 }
 
 Rods fallen_rod(Integrator integrator, double step, int steps) {

@@ -36,6 +36,10 @@ double period_of_swing(const Rods& rods, Effects all, double step);
 /// @param step [s]
 double simulated_pendulum_period(int segments, double angle, double step);
 
+/// The same of a rigid part that is all of the rod: a uniform bar, whose small swings take
+/// rod_pendulum_period().
+double simulated_plug_period(double angle, double step);
+
 /// A rod that falls freely from rest, from a height of 0.
 Rods fallen_rod(Integrator integrator, double step, int steps);
 

@@ -97,8 +97,10 @@ struct Rods : RodState {
 
   std::vector<double> edge_radii;  ///< by edge [m]; empty where all rods are as thick all along
 
-  /// By edge: not 0 where it is a rigid part. Empty: none is.
-  std::vector<std::uint8_t> rigid_edges;
+  /// By edge: not 0 where it is a rigid part, a sixth of whose mass it is [kg]. With half of the
+  /// mass at each of its nodes, its kinetic energy is that of a uniform bar (consistent mass
+  /// matrix): ½ Σ m v² − ½ c |v₁ − v₂|². Empty: no edge is rigid.
+  std::vector<double> mass_couplings;
 
   SectionLengths section_lengths;  ///< empty where all rods are the same all along
 
@@ -138,6 +140,10 @@ struct Rods : RodState {
     return node_count(rod) - (is_closed(rod) ? 1 : 0);
   }
 
+  bool is_rigid(std::uint32_t edge) const {
+    return !mass_couplings.empty() && mass_couplings[edge] != 0.0;
+  }
+
   /// Length at rest that belongs to an inner node: half of each of its edges [m].
   double rest_length_at(std::uint32_t node) const {
     return 0.5 * (rest_lengths[node - 1] + rest_lengths[node]);
@@ -145,11 +151,11 @@ struct Rods : RodState {
 
   /// The part of that which may bend.
   double bending_share_at(std::uint32_t node) const {
-    if (rigid_edges.empty()) {
+    if (mass_couplings.empty()) {
       return 1.0;
     }
-    const double before = rigid_edges[node - 1] != 0 ? 0.0 : rest_lengths[node - 1];
-    const double after = rigid_edges[node] != 0 ? 0.0 : rest_lengths[node];
+    const double before = is_rigid(node - 1) ? 0.0 : rest_lengths[node - 1];
+    const double after = is_rigid(node) ? 0.0 : rest_lengths[node];
     return (before + after) / (rest_lengths[node - 1] + rest_lengths[node]);
   }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/sim/inertia.hpp"
+
 namespace fiber {
 
 using Eigen::Matrix3d;
@@ -31,8 +33,8 @@ Side side_b(const Impact& impact) {
 /// Adds the velocities by an impulse on a point of an edge.
 void push(const Side& side, const Vector3d& impulse, Rods& rods) {
   const std::uint32_t edge = side.edge;
-  rods.velocities[edge] += (1.0 - side.parameter) / rods.masses[edge] * impulse;
-  rods.velocities[edge + 1] += side.parameter / rods.masses[edge + 1] * impulse;
+  change_velocity(rods, edge, (1.0 - side.parameter) / mass_against_impulse(rods, edge) * impulse);
+  change_velocity(rods, edge + 1, side.parameter / mass_against_impulse(rods, edge + 1) * impulse);
 }
 
 /// Adds the velocities and the spin by an impulse where friction acts.
@@ -42,16 +44,20 @@ void push_across(const Side& side, const Vector3d& impulse, Rods& rods) {
   } else {
     const Eigen::Matrix<double, SurfaceLever::unknowns, 1> by_all =
         side.lever->jacobian(side.parameter).transpose() * impulse;
-    rods.velocities[side.edge] += by_all.head<3>() / rods.masses[side.edge];
-    rods.velocities[side.edge + 1] += by_all.tail<3>() / rods.masses[side.edge + 1];
+    change_velocity(rods, side.edge, by_all.head<3>() / mass_against_impulse(rods, side.edge));
+    change_velocity(rods, side.edge + 1,
+                    by_all.tail<3>() / mass_against_impulse(rods, side.edge + 1));
     rods.spins[side.edge] += by_all[3] / rods.section_inertia(side.rod, side.edge);
   }
 }
 
 /// The change of the velocity of a point of an edge by a unit impulse on it [1/kg].
-double mobility(const Side& side, const std::vector<double>& masses) {
-  return (1.0 - side.parameter) * (1.0 - side.parameter) / masses[side.edge] +
-         side.parameter * side.parameter / masses[side.edge + 1];
+double mobility(const Side& side, const Rods& rods) {
+  const double first = 1.0 - side.parameter;
+  const double second = side.parameter;
+  return first * first / mass_against_impulse(rods, side.edge) +
+         second * second / mass_against_impulse(rods, side.edge + 1) +
+         2.0 * first * second * coupled_mobility(rods, side.edge);
 }
 
 /// The change of the velocity of the point where friction acts by an impulse there [1/kg].
@@ -59,9 +65,11 @@ Matrix3d lever_mobility(const Side& side, const Rods& rods) {
   const SurfaceLever::Jacobian jacobian = side.lever->jacobian(side.parameter);
   const auto of_nodes = [&](int column, std::uint32_t node) -> Matrix3d {
     return jacobian.middleCols<3>(column) * jacobian.middleCols<3>(column).transpose() /
-           rods.masses[node];
+           mass_against_impulse(rods, node);
   };
+  const Matrix3d mixed = jacobian.middleCols<3>(0) * jacobian.middleCols<3>(4).transpose();
   return of_nodes(0, side.edge) + of_nodes(4, side.edge + 1) +
+         coupled_mobility(rods, side.edge) * (mixed + mixed.transpose()) +
          jacobian.col(3) * jacobian.col(3).transpose() / rods.section_inertia(side.rod, side.edge);
 }
 
@@ -73,8 +81,8 @@ struct Mobilities {
 
 Mobilities mobilities(const Impact& impact, const Rods& rods) {
   const bool is_of_rods = impact.points.is_of_rods();
-  const double along = mobility(side_a(impact), rods.masses) +
-                       (is_of_rods ? mobility(side_b(impact), rods.masses) : 0.0);
+  const double along =
+      mobility(side_a(impact), rods) + (is_of_rods ? mobility(side_b(impact), rods) : 0.0);
   if (!impact.levers) {
     return {along, along};
   }

@@ -113,13 +113,12 @@ void rest_again_in_sections(Rods& rods, std::uint32_t rod) {
     const double before = rods.rest_lengths[i];
     rods.rest_lengths[i] = (rods.positions[i + 1] - rods.positions[i]).norm();
     const double half = 0.5 * (rods.rest_lengths[i] - before);
-    const bool is_rigid = !rods.rigid_edges.empty() && rods.rigid_edges[i] != 0;
     const double ratio = rods.rest_lengths[i] / before;
     lengths.stretching[i] *= ratio;
     lengths.inertias[i] *= ratio;
     for (const std::uint32_t node : {i, i + 1}) {
       rods.masses[node] += half * rods.sections[rod].mass_per_length;
-      if (!is_rigid) {
+      if (!rods.is_rigid(i)) {
         lengths.bending[node] += half;
         lengths.twisting[node] += half;
       }

@@ -56,7 +56,7 @@ namespace {
 /// edge.
 template <class Curvatures>
 void leave_rigid_parts_out(const Rods& rods, Curvatures& curvatures) {
-  for (std::uint32_t rod = 0; rod < rods.count() && !rods.rigid_edges.empty(); ++rod) {
+  for (std::uint32_t rod = 0; rod < rods.count() && !rods.mass_couplings.empty(); ++rod) {
     for (std::uint32_t i = rods.first(rod) + 1; i + 1 < rods.end(rod); ++i) {
       curvatures[i] *= rods.bending_share_at(i);
     }

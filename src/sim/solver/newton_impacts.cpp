@@ -4,8 +4,10 @@
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <optional>
 #include <tuple>
 
+#include "src/sim/inertia.hpp"
 #include "src/sim/solver/newton.hpp"
 
 namespace fiber {
@@ -23,7 +25,7 @@ struct StruckNode {
   double spin = 0.0;
 };
 
-/// The nodes of some impacts and those joined with them, each once.
+/// The nodes of some impacts, and those joined or coupled with them, each once, in order.
 /// @param joints null for none
 std::vector<StruckNode> struck_nodes(const Rods& rods, const std::vector<Impact>& impacts,
                                      const JointParts* joints) {
@@ -43,6 +45,11 @@ std::vector<StruckNode> struck_nodes(const Rods& rods, const std::vector<Impact>
       }
     }
   }
+  for (std::size_t i = 0, struck = nodes.size(); i < struck; ++i) {
+    if (const std::optional<std::uint32_t> other = coupled_node(rods, nodes[i].node)) {
+      nodes.push_back({nodes[i].rod, *other});
+    }
+  }
   std::sort(nodes.begin(), nodes.end(), [](const StruckNode& a, const StruckNode& b) {
     return std::tie(a.node, a.is_joined_only) < std::tie(b.node, b.is_joined_only);
   });
@@ -53,6 +60,14 @@ std::vector<StruckNode> struck_nodes(const Rods& rods, const std::vector<Impact>
     each.spin = rods.spins.empty() ? 0.0 : rods.spins[each.node];
   }
   return nodes;
+}
+
+/// One of struck_nodes(), null if it is none of them.
+const StruckNode* find_node(const std::vector<StruckNode>& nodes, std::uint32_t node) {
+  const auto found = std::lower_bound(
+      nodes.begin(), nodes.end(), node,
+      [](const StruckNode& struck, std::uint32_t searched) { return struck.node < searched; });
+  return found != nodes.end() && found->node == node ? &*found : nullptr;
 }
 
 /// The places of joints in impacts. A node there is as heavy as its place while impulses act on it,
@@ -123,11 +138,27 @@ double allowed_share(const std::vector<StruckNode>& nodes, const Rods& after, do
                      double work) {
   double linear = -work;  // the energy by the share y is y linear + y² square
   double square = 0.0;
+  const auto velocity_before = [&](std::uint32_t node) {
+    const StruckNode* const struck = find_node(nodes, node);
+    return struck != nullptr ? struck->velocity : after.velocities[node];
+  };
+  const auto add_coupling = [&](std::uint32_t edge) {
+    const Vector3d before = velocity_before(edge + 1) - velocity_before(edge);
+    const Vector3d change = after.velocities[edge + 1] - after.velocities[edge] - before;
+    linear -= after.mass_couplings[edge] * before.dot(change);
+    square -= 0.5 * after.mass_couplings[edge] * change.squaredNorm();
+  };
   for (const StruckNode& before : nodes) {
     const double mass = after.masses[before.node];
     const Vector3d change = after.velocities[before.node] - before.velocity;
     linear += mass * before.velocity.dot(change);
     square += 0.5 * mass * change.squaredNorm();
+    if (after.is_rigid(before.node)) {
+      add_coupling(before.node);
+    } else if (before.node > 0 && after.is_rigid(before.node - 1) &&
+               find_node(nodes, before.node - 1) == nullptr) {
+      add_coupling(before.node - 1);
+    }
     if (!after.spins.empty()) {
       const double inertia = after.section_inertia(before.rod, before.node);
       const double spin_change = after.spins[before.node] - before.spin;
@@ -147,13 +178,7 @@ double allowed_share(const std::vector<StruckNode>& nodes, const Rods& after, do
 std::vector<double> NewtonSolver::kinetic_energies(const Rods& rods) const {
   std::vector<double> energies(states_.size(), 0.0);
   for (const std::uint32_t rod : members_) {
-    for (std::uint32_t i = rods.first(rod); i < rods.end(rod); ++i) {
-      double& energy = energies[scratch_->islands[rod]];
-      energy += 0.5 * rods.masses[i] * rods.velocities[i].squaredNorm();
-      if (!rods.spins.empty()) {
-        energy += 0.5 * rods.section_inertia(rod, i) * rods.spins[i] * rods.spins[i];
-      }
-    }
+    add_kinetic_energy(rods, rod, energies[scratch_->islands[rod]]);
   }
   return energies;
 }

@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "fiber_proximity/sim/effect.hpp"
+#include "src/sim/inertia.hpp"
 #include "src/sim/solver/line_search.hpp"
+#include "src/sim/solver/mass_couplings.hpp"
 #include "src/sim/solver/pack_data.hpp"
 #include "src/sim/solver/pack_kernels.hpp"
 
@@ -64,12 +66,13 @@ class PackStep {
     step_length_ = step;
     const std::size_t unknowns = system_.unknowns;
     load_constants(rods, pack_);
+    couplings_.assign(rods, pack_);
     for_each_node(pack_, lane_count, [&](std::size_t lane, std::size_t place, std::uint32_t node) {
       for (std::uint32_t k = 0; k < 3; ++k) {
         predicted_[place + k][lane] =
             rods.positions[node][k] + step_length_ * rods.velocities[node][k];
         inertias_[place + k][lane] = rods.masses[node];
-        scales_[place + k][lane] = step_length_ / rods.masses[node];
+        scales_[place + k][lane] = step_length_ / mass_against_impulse(rods, node);
       }
       if (unknowns == 4) {
         predicted_[place + 3][lane] = rods.angles[node] + step_length_ * rods.spins[node];
@@ -139,8 +142,9 @@ class PackStep {
 
   /// Kinetic and potential energy of the incremental potential where the rods are now [J].
   void evaluate_energies(const Effects& effects) {
-    const SimdBatch kinetic = weighted_squares({system_.size(), pack_.used}, inertias_.data(),
-                                               pack_.positions.data(), predicted_.data());
+    SimdBatch kinetic = weighted_squares({system_.size(), pack_.used}, inertias_.data(),
+                                         pack_.positions.data(), predicted_.data());
+    couplings_.add_squares(pack_, predicted_, kinetic);
     for (std::size_t lane = 0; lane < lane_count; ++lane) {
       energies_[lane] = EnergySum{};
       energies_[lane].add(0.5 * kinetic[lane] / (step_length_ * step_length_));
@@ -170,6 +174,7 @@ class PackStep {
     set_inertia({system_.size(), pack_.used}, inverse_square, inertias_.data(),
                 pack_.positions.data(), predicted_.data(), system_.gradient.data(),
                 system_.hessian.data(), height);
+    couplings_.add_derivatives(pack_, predicted_, inverse_square, system_);
     for (std::size_t e = 0; e < effects.size(); ++e) {
       effects[e]->add_derivatives(pack_, values_[e], system_);
     }
@@ -265,8 +270,9 @@ class PackStep {
 
   RodPack pack_;
   PackSystem system_;
-  std::vector<RodSystem> views_;       // of the system, by lane
-  std::vector<SimdBatch> inertias_;    // of unknowns: masses, and moments of inertia of angles
+  std::vector<RodSystem> views_;     // of the system, by lane
+  std::vector<SimdBatch> inertias_;  // of unknowns: masses, and moments of inertia of angles
+  MassCouplings couplings_;
   std::vector<SimdBatch> scales_;      // from gradient to speed [s/kg], of angles times the radius
   std::vector<SimdBatch> step_start_;  // where rates are measured from
   std::vector<SimdBatch> predicted_;   // where inertia would bring the rods

@@ -24,7 +24,11 @@ TEST_F(SimSceneTest, ARigidPartIsOneSegmentOfItsLength) {
   for (std::size_t i = 0; i < x.size(); ++i) {
     EXPECT_NEAR(rods.positions[i].x(), x[i], 1e-12);
   }
-  EXPECT_EQ(rods.rigid_edges, (std::vector<std::uint8_t>{0, 0, 0, 1, 0, 0}));
+  ASSERT_EQ(rods.mass_couplings.size(), x.size());
+  for (std::uint32_t edge = 0; edge < x.size(); ++edge) {
+    const double mass = 0.2 * 1600.0 * M_PI * 4e-4;
+    EXPECT_NEAR(rods.mass_couplings[edge], edge == 3 ? mass / 6.0 : 0.0, 1e-12) << edge;
+  }
   EXPECT_EQ(rods.edge_radius(0, 3), 0.02);
   EXPECT_EQ(rods.edge_radius(0, 4), 0.01);
   const double per_length = 800.0 * M_PI * 1e-4;
@@ -50,7 +54,7 @@ TEST_F(SimSceneTest, APartWithARadiusOfItsOwnBeginsAndEndsAtNodes) {
   EXPECT_EQ(rods.edge_radius(0, 3), 0.02);
   EXPECT_EQ(rods.edge_radius(0, 6), 0.02);
   EXPECT_EQ(rods.edge_radius(0, 7), 0.01);
-  EXPECT_TRUE(rods.rigid_edges.empty());
+  EXPECT_TRUE(rods.mass_couplings.empty());
 }
 
 TEST_F(SimSceneTest, NaturalCurvatureLeavesRigidPartsOut) {
