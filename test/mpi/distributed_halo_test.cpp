@@ -167,6 +167,30 @@ TEST(DistributedHalo, ServesWhilePointsMoveLittle) {
   }
 }
 
+/// As fast towards each other as all points move, until what is far apart is near.
+TEST(DistributedHalo, ServesNoLongerThanUntilTwoMayMeet) {
+  Random random;
+  FiberAssembly fibers = walks(random, 300, 20, 0.05, 0.002);
+  const std::vector<ScatteredPart> scattered = scatter(fibers, 2, random);
+  DistributedEngine engine(MPI_COMM_WORLD, one_thread());
+  constexpr int frames = 24;
+  for (int frame = 0; frame < frames; ++frame) {
+    const DistributedFibers mine = scattered_to(own_rank(), fibers, scattered);
+    engine.update(mine.parts, mine.names);
+    ASSERT_TRUE(same_as_one_process(answer(engine, within(0.0)),
+                                    answer("run_tree", fibers, within(0.0)).contacts))
+        << "frame " << frame;
+    std::vector<Eigen::Vector3d> points = fibers.points();
+    for (std::uint32_t fiber = 0; fiber < fibers.fiber_count(); ++fiber) {
+      for (std::uint32_t p = fibers.offsets()[fiber]; p < fibers.offsets()[fiber + 1]; ++p) {
+        points[p].x() += fiber % 2 == 0 ? 3e-4 : -3e-4;
+      }
+    }
+    fibers = FiberAssembly(std::move(points), fibers.offsets(), fibers.radii());
+  }
+  EXPECT_TRUE(rank_count() == 1 || engine.facts().halo_search_count < frames / 2);
+}
+
 /// A segment across an axis, so that boxes are as far apart as segments.
 std::pair<FiberNode, FiberNode> across(double place, double radius) {
   return {{{place, -1e-3, 0.0}, radius}, {{place, 1e-3, 0.0}, 0.0}};
@@ -186,6 +210,19 @@ TEST(BoxTree, BoxesInSinglePrecisionHoldThoseInDouble) {
   const BoxTree tree(boxes);
   for (std::uint32_t i = 0; i < boxes.size(); ++i) {
     ASSERT_TRUE(tree.box(i).contains(boxes[i])) << i;
+  }
+}
+
+TEST(DistributedHalo, BoxesThatAreApartAlongAnyAxisDoNotMeet) {
+  const Box3d box(Eigen::Vector3d(1.0, 2.0, 3.0), Eigen::Vector3d(2.0, 3.0, 4.0));
+  const BoxTree tree(std::vector<Box3d>{box});
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double way : {-1.1, -0.9, 0.9, 1.1}) {
+      const Eigen::Vector3d moved = way * Eigen::Vector3d::Unit(axis);
+      const Box3d other = box.translated(moved);
+      EXPECT_EQ(tree.meets(0, tree.seen_from_origin(other)), std::abs(way) < 1.0)
+          << way << " along " << axis;
+    }
   }
 }
 
@@ -213,6 +250,21 @@ LocalFibers run_of(const std::vector<Eigen::Vector3d>& points, double radius) {
   LocalFibers fibers;
   fibers.assign(set);
   return fibers;
+}
+
+TEST(DistributedHalo, ABallIsAroundItsSegmentOnAllOfItsWay) {
+  Random random;
+  for (int round = 0; round < 1000; ++round) {
+    const LocalFibers before = run_of(random_walk(random, 1, 0.2), 0.01);
+    const LocalFibers after = run_of(random_walk(random, 1, random.uniform(0.1, 3.0)), 0.02);
+    const SegmentBall ball = ball_around({before, &after}, 0);
+    for (const LocalFibers* fibers : {&before, &after}) {
+      for (const Eigen::Vector3d& point : fibers->fibers().points()) {
+        ASSERT_LE((point - ball.centre).norm() + fibers->fibers().segment_radius(0),
+                  ball.radius * (1.0 + 1e-12));
+      }
+    }
+  }
 }
 
 TEST(DistributedHalo, WhatIsNearIsNearTheCapsuleAroundIt) {

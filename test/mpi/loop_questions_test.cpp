@@ -109,5 +109,27 @@ TEST(LoopQuestions, AreAnsweredAsByWhoHasAllPoints) {
   expect_enough(others, 1000 / rounds_less);
 }
 
+TEST(LoopQuestions, AreAboutThePointsAfterTheFirstSegmentUpToTheLast) {
+  FiberRuns runs;
+  runs.add({{7, 3}, 5, 0, 0.0}, std::vector<FiberNode>(6).data());  // segments 3 to 7
+  LocalFibers fibers;
+  fibers.assign(runs);
+  const KnownRuns known(fibers);
+  const auto count = [&](std::uint64_t fiber, std::uint64_t a, std::uint64_t b) {
+    LoopQuestion question;
+    question.fiber = fiber;
+    question.segment_a = a;
+    question.segment_b = b;
+    return known.count(question);
+  };
+  EXPECT_EQ(count(7, 3, 6), 3U);
+  EXPECT_EQ(count(7, 0, 3), 1U);
+  EXPECT_EQ(count(7, 6, 20), 1U);
+  EXPECT_EQ(count(7, 0, 20), 5U);
+  EXPECT_EQ(count(7, 0, 2), 0U);
+  EXPECT_EQ(count(7, 7, 9), 0U);
+  EXPECT_EQ(count(6, 0, 20), 0U);
+}
+
 }  // namespace
 }  // namespace fiber::test
