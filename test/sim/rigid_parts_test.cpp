@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numeric>
 
 #include "fiber_proximity/sim/effects.hpp"
 #include "fiber_proximity/sim/loads.hpp"
