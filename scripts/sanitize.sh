@@ -43,10 +43,12 @@ long_tests=(
   'Skins/RunTreeLimits.HoldForAFiber*/with_a_skin' 'Engines/DeadlineTest.*/brute_force'
   'AutomaticSkinTest.ASkinIsGivenUp*' 'AutomaticSkinTest.FramesThatFollow*' 'AutomaticSkinTest.WhatDoesNotFollow*'
   'Families/HardPairs.ContactsAreDecidedExactlyWithin*' 'All/MotionFamilies.*/crossing__but_for_a_rounding'
-  'FiberQuery.EveryEngine*' 'FiberQuery.AgreesWithBruteForce*' 'FiberQuery.PrintsTheLibrarysNumbers*'
+  'ShrinkingSearchTest.FindsWhatBruteForce*' 'FiberQuery.EveryEngine*' 'FiberQuery.AgreesWithBruteForce*' 'FiberQuery.PrintsTheLibrarysNumbers*'
   'RunTree*.AnswersTheSameWithEveryInstructionSet'
 )
-GTEST_FILTER="-$(IFS=:; echo "${long_tests[*]}")" run_tests --parallel "$(nproc)"
+GTEST_FILTER="-$(IFS=:; echo "${long_tests[*]}")"
+export GTEST_FILTER
+run_tests --parallel "$(nproc)"
 
 build+=-threads
 if ! dpkg-query -W libtbb12 >/dev/null 2>&1; then
@@ -58,6 +60,5 @@ cmake_arguments=("${core_arguments[@]}" -DFIBER_PROXIMITY_SANITIZE=thread
   -DTBB_DIR="$build/tbb/install/lib/cmake/TBB")
 build_package threaded_tests
 # One after the other: the threads of one test are to run at the same time. No test goes on after a
-# race, whose report is long enough. One is left out that is minutes of brute force on one thread:
-# the others of its suite search as it does.
-TSAN_OPTIONS=halt_on_error=1 GTEST_FILTER='-ShrinkingSearchTest.FindsWhatBruteForce*' run_tests --label-regex threaded
+# race, whose report is long enough.
+TSAN_OPTIONS=halt_on_error=1 run_tests --label-regex threaded
