@@ -23,6 +23,7 @@ add_library(fiber_proximity_sim SHARED
   src/sim/effects/moving_obstacles.cpp
   src/sim/effects/moving_obstacle_contact.cpp
   src/sim/effects/natural_bend.cpp
+  src/sim/effects/stiff_bend.cpp
   src/sim/effects/section_damping.cpp
   src/sim/effects/stretch.cpp
   src/sim/effects/twist.cpp

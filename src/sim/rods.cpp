@@ -52,14 +52,18 @@ RodSection solid_round_section(const RodMaterial& material, double radius) {
   require_positive("density", material.density);
   require(material.bending_share > 0.0 && material.bending_share <= 1.0, "bending_share",
           material.bending_share, "", "above 0 and at most 1");
+  require(material.bending_ratio >= 1.0 && std::isfinite(material.bending_ratio), "bending_ratio",
+          material.bending_ratio, "", "at least 1 and finite");
   require_positive("radius", radius);
   const double area = M_PI * radius * radius;
   const double second_moment = area * radius * radius / 4.0;
   const double polar_moment = 2.0 * second_moment;
   return {material.youngs_modulus * area,
           material.bending_share * material.youngs_modulus * second_moment,
-          material.shear_modulus * polar_moment, material.density * area,
-          material.density * polar_moment};
+          material.shear_modulus * polar_moment,
+          material.density * area,
+          material.density * polar_moment,
+          material.bending_ratio};
 }
 
 namespace {
@@ -71,6 +75,8 @@ void validate(const RodSection& section) {
   require_not_negative("twisting_stiffness", section.twisting_stiffness);
   require_positive("mass_per_length", section.mass_per_length);
   require_not_negative("inertia_per_length", section.inertia_per_length);
+  require(section.bending_ratio >= 1.0 && std::isfinite(section.bending_ratio), "bending_ratio",
+          section.bending_ratio, "", "at least 1 and finite");
 }
 
 /// [m] Beyond this, squares of squares of lengths are no longer finite.
@@ -122,6 +128,9 @@ void Rods::add(const std::vector<Eigen::Vector3d>& points, double radius,
   }
   if (!mass_couplings.empty()) {
     mass_couplings.resize(positions.size(), 0.0);
+  }
+  if (!stiff_sides.empty()) {
+    stiff_sides.resize(positions.size());
   }
   if (!edge_radii.empty()) {
     add_edge_radii();

@@ -99,6 +99,7 @@ void validate_parts(std::uint32_t rod, double length, const std::vector<RodSecti
 struct Sum {
   double stretching = 0.0;  // lengths of the rod's own section [m]
   double bending = 0.0;
+  double stiff = 0.0;
   double twisting = 0.0;
   double mass = 0.0;     // [kg]
   double inertia = 0.0;  // [kg m²]
@@ -113,7 +114,9 @@ Sum sum_between(const RodSection& own, const std::vector<RodSectionPart>& parts,
   const auto add = [&](const RodSection& section, double length, bool gives_way) {
     sum.stretching += length * own.stretching_stiffness / section.stretching_stiffness;
     if (gives_way) {
-      sum.bending += length * own.bending_stiffness / section.bending_stiffness;
+      const double bending = length * own.bending_stiffness / section.bending_stiffness;
+      sum.bending += bending;
+      sum.stiff += bending / section.bending_ratio;
       sum.twisting += length * own.twisting_stiffness / section.twisting_stiffness;
     }
     sum.mass += length * section.mass_per_length;
@@ -129,6 +132,7 @@ Sum sum_between(const RodSection& own, const std::vector<RodSectionPart>& parts,
   }
   sum.stretching += rest;
   sum.bending += rest;
+  sum.stiff += rest / own.bending_ratio;
   sum.twisting += rest;
   sum.mass += rest * own.mass_per_length;
   sum.inertia += rest * own.inertia_per_length;
@@ -145,6 +149,7 @@ void set_lengths(Rods& rods, std::uint32_t rod, const std::vector<RodSectionPart
     const bool is_inner = i > rods.first(rod) && i + 1 < rods.end(rod);
     const Sum of_node = sum_between(own, parts, before, middle, is_inner);
     lengths.bending[i] = of_node.bending;
+    lengths.stiff[i] = of_node.stiff;
     lengths.twisting[i] = of_node.twisting;
     if (i + 1 < rods.end(rod)) {
       const Sum of_edge = sum_between(own, parts, begin, begin + rods.rest_lengths[i]);
@@ -242,8 +247,9 @@ void Rods::set_sections(std::uint32_t rod, const std::vector<RodSectionPart>& pa
     require_all_positive(own);
   }
   const std::size_t known = section_lengths.stretching.size();
-  for (std::vector<double>* of_all : {&section_lengths.stretching, &section_lengths.bending,
-                                      &section_lengths.twisting, &section_lengths.inertias}) {
+  for (std::vector<double>* of_all :
+       {&section_lengths.stretching, &section_lengths.bending, &section_lengths.stiff,
+        &section_lengths.twisting, &section_lengths.inertias}) {
     of_all->resize(positions.size(), 0.0);
   }
   for (std::uint32_t other = 0; other < count(); ++other) {

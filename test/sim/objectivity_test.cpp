@@ -88,6 +88,12 @@ std::unique_ptr<Effect> bend_with_sides(Rods& rods) {
   return std::make_unique<Bend>();
 }
 
+std::unique_ptr<Effect> bend_with_a_stiff_side(Rods& rods) {
+  rods.natural_curvature_vectors.assign(rods.positions.size(), {1.0, -2.0});
+  rods.stiff_sides.assign(rods.positions.size(), {3.0, {0.6, 0.8}});
+  return std::make_unique<AnisotropicBend>();
+}
+
 class ObjectivityTest : public testing::TestWithParam<ObjectivityCase> {
  protected:
   /// Two earlier states, and the rods in a third one.
@@ -164,6 +170,7 @@ INSTANTIATE_TEST_SUITE_P(
         ObjectivityCase{"bend", false, maker<Bend>()},
         ObjectivityCase{"bend_with_sizes", false, bend_with_sizes},
         ObjectivityCase{"bend_with_sides", true, bend_with_sides},
+        ObjectivityCase{"bend_with_a_stiff_side", true, bend_with_a_stiff_side},
         ObjectivityCase{"twist", true, [](Rods& rods) { return std::make_unique<Twist>(rods); }},
         ObjectivityCase{"damping", false, maker<Damping>(0.1)},
         ObjectivityCase{"damping_with_twist", true, maker<Damping>(0.1)}),

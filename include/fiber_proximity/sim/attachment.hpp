@@ -107,6 +107,7 @@ class Attachment : public Effect {
     double twist = 0.0;      // between clamp and edge when the step began, may exceed a
                              // turn [rad]
     std::optional<Eigen::Vector2d> natural_bend{};  // of clamps, if it has a direction [1/m]
+    StiffSide stiff_side{};                         // of clamps
 
     bool is_clamp() const { return hold.kind == Kind::CLAMP; }
     Eigen::Vector3d pull_at(const Eigen::Vector3d& position) const;

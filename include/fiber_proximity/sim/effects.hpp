@@ -105,6 +105,28 @@ class Bend : public LaneEffect {
   std::vector<Eigen::Vector2d> natural_curvatures_;  // with a direction [1/m]
 };
 
+/// What rods resist to bending towards Rods::stiff_sides beyond the resistance of Bend, which is to
+/// be there, too: ½ k (ρ − ρ₀)² at each inner node, ρ = ½ (b·m − a·n) with the tangents a and b of
+/// its edges and the directions m and n across them, towards the side, that their cross-sections
+/// carry along. As Bergou et al. (2008, Sect. 4.2) do with their material curvatures it averages
+/// over both cross-sections. In the plane of a bend by the angle φ towards the side ρ is sin φ. ρ₀
+/// is that of natural curvature.
+class AnisotropicBend : public Effect {
+ public:
+  void begin_step(Rods& rods, const TimeStep& step) override;
+  NodeData per_node_data() const override;
+  void energy(const RodPack& rods, const NodeValues& values, SimdBatch& energy) const override;
+  void add_derivatives(const RodPack& rods, const NodeValues& values,
+                       PackSystem& system) const override;
+  void add_forces(const RodPack& rods, const NodeValues& values, RodForces& forces) const override;
+
+ private:
+  template <class Visit>
+  void for_each_bend(const RodPack& rods, const NodeValues& values, const Visit& visit) const;
+
+  std::vector<std::array<double, 4>> values_;  // by node: k, the side, ρ₀
+};
+
 /// Rods that stay bent: where the curvature differs from the natural one by more than the yield
 /// strain allows, the natural one follows after each step (return mapping, Simo and Hughes 1998,
 /// Sect. 1.4, in one dimension). Like Rods::natural_curvatures, the plastic one has no direction.

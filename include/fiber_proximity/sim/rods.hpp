@@ -18,6 +18,10 @@ struct RodMaterial {
   /// Part of the bending stiffness of a solid rod, in (0, 1]: strands that slide along each other
   /// bend far more easily than they stretch.
   double bending_share = 1.0;
+
+  /// How many times as much it takes to bend towards one side (set_stiff_side()) as across that, at
+  /// least 1: a flat cable. Only with twist.
+  double bending_ratio = 1.0;
 };
 
 /// The material of this name, one of material_names(): orders of magnitude, for cables that have
@@ -30,10 +34,11 @@ std::vector<std::string> material_names();
 /// The stiffnesses and masses of a rod's cross-section.
 struct RodSection {
   double stretching_stiffness = 0.0;  ///< EA [N]
-  double bending_stiffness = 0.0;     ///< EI [N m²], the same about all axes
+  double bending_stiffness = 0.0;     ///< EI [N m²], the same about all axes but for the ratio
   double twisting_stiffness = 0.0;    ///< GJ [N m²]
   double mass_per_length = 0.0;       ///< ρA [kg/m]
   double inertia_per_length = 0.0;    ///< ρJ about the tangent [kg m]
+  double bending_ratio = 1.0;         ///< of EI towards the stiff side, and EI; >= 1
 };
 
 /// The section of a solid, round rod.
@@ -65,10 +70,17 @@ struct RodSectionPart {
 struct SectionLengths {
   std::vector<double> stretching;  ///< of edges [m]
   std::vector<double> bending;     ///< of nodes: half of each edge [m]
+  std::vector<double> stiff;       ///< the same of bending towards the stiff side [m]
   std::vector<double> twisting;    ///< of nodes [m]
   std::vector<double> inertias;    ///< of edges' cross-sections about the tangent [kg m²]
 
   bool empty() const { return stretching.empty(); }
+};
+
+/// A side of a node's cross-sections towards which more is needed to bend than across it.
+struct StiffSide {
+  double stiffness = 0.0;  ///< that much more, against the angle from edge to edge [N m]
+  Eigen::Vector2d side = Eigen::Vector2d::Zero();  ///< of unit length, by the material directions
 };
 
 /// The positions of rods, and their rates.
@@ -122,6 +134,9 @@ struct Rods : RodState {
   /// 4.2), of nodes [1/m]. At an end it is against a clamp. set_natural_shape() and
   /// set_natural_arc() make them.
   std::vector<Eigen::Vector2d> natural_curvature_vectors;
+
+  /// With twist only, of nodes: set_stiff_side() makes them. Empty: no rod has such a side.
+  std::vector<StiffSide> stiff_sides;
 
   /// With twist only, by edge: a unit vector across the edge that follows it without turning about
   /// it, as it was when the step began, and the tangent then.
@@ -207,6 +222,14 @@ struct Rods : RodState {
   ///         that are not one edge or follow each other, and sections, that of the rod included,
   ///         whose stiffnesses and masses are not positive and finite; nothing is changed then
   void set_sections(std::uint32_t rod, const std::vector<RodSectionPart>& parts);
+
+  /// Has a rod with twist bend towards one side as much less easily as the bending ratios of its
+  /// sections say. The cross-sections take the side with them. AnisotropicBend acts by it. To be
+  /// called after set_sections().
+  /// @param towards to which side of its first edge; of any length
+  /// @throws std::invalid_argument naming the rod, for one without twist or that is closed, and for
+  ///         a side that is not finite or is along the edge
+  void set_stiff_side(std::uint32_t rod, const Eigen::Vector3d& towards);
 };
 
 }  // namespace fiber

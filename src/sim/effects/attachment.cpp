@@ -172,6 +172,9 @@ void Attachment::begin_step(Rods& rods, const TimeStep& step) {
     if (held.is_clamp() && !rods.natural_curvature_vectors.empty()) {
       held.natural_bend = rods.natural_curvature_vectors[node];
     }
+    if (held.is_clamp() && !rods.stiff_sides.empty()) {
+      held.stiff_side = rods.stiff_sides[node];
+    }
   }
 }
 
@@ -200,7 +203,7 @@ void Attachment::energy(const RodPack& rods, const NodeValues& /*values*/,
     const double within = std::min(distance, held.max_force / held.stiffness);
     energy[rod.lane()] += held.stiffness * within * (distance - 0.5 * within);
     if (held.is_clamp()) {
-      ClampedEnd(rod, node, held.placement, held.twist, held.natural_bend)
+      ClampedEnd(rod, node, held.placement, held.twist, {held.natural_bend, held.stiff_side})
           .add_energy(energy[rod.lane()]);
     }
   });
@@ -219,7 +222,7 @@ void Attachment::add_derivatives(const RodPack& rods, const NodeValues& /*values
     rod_system.add_gradient(node, -pull);
     rod_system.add_hessian(node, stiffness * Eigen::Matrix3d::Identity());
     if (held.is_clamp()) {
-      ClampedEnd(rod, node, held.placement, held.twist, held.natural_bend)
+      ClampedEnd(rod, node, held.placement, held.twist, {held.natural_bend, held.stiff_side})
           .add_derivatives(rod_system);
     }
   });
@@ -238,10 +241,10 @@ void Attachment::add_forces(const RodPack& rods, const NodeValues& /*values*/,
   for_each_held(rods, [&](const Held& held, const PackLane& rod) {
     const std::uint32_t node = held.hold.node;
     const Vector3d point = rod.position(node);
-    const Vector3d moment =
-        held.is_clamp()
-            ? ClampedEnd(rod, node, held.placement, held.twist, held.natural_bend).moment()
-            : Vector3d(Vector3d::Zero());
+    const Vector3d moment = held.is_clamp() ? ClampedEnd(rod, node, held.placement, held.twist,
+                                                         {held.natural_bend, held.stiff_side})
+                                                  .moment()
+                                            : Vector3d(Vector3d::Zero());
     forces.holds.push_back({held.id, held.hold.rod, node, point, held.pull_at(point), moment,
                             (held.placement.position - point).norm(), held.max_force});
   });

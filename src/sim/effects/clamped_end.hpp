@@ -6,6 +6,7 @@
 
 #include "fiber_proximity/sim/attachment.hpp"
 #include "src/sim/effects/natural_bend.hpp"
+#include "src/sim/effects/stiff_bend.hpp"
 
 namespace fiber {
 
@@ -19,15 +20,21 @@ inline double twist_of(const Placement& clamp, const Eigen::Vector3d& tangent,
 
 inline std::uint32_t clamped_edge(std::uint32_t node) { return node == 0 ? 0 : node - 1; }
 
+/// How a rod is at the end that a clamp holds.
+struct EndBend {
+  std::optional<Eigen::Vector2d>
+      natural;  ///< curvature with a direction [1/m]; none: it is straight
+  StiffSide stiff_side;
+};
+
 /// The end of a rod that a clamp holds: how the edge there is bent against the clamp, and with
 /// twist how its cross-section is turned, over half an edge's length of rod.
 class ClampedEnd {
  public:
-  /// @param placement    must outlive this
-  /// @param near         by whole turns near which the twist is [rad]
-  /// @param natural_bend with a direction; none: the rod is straight at rest
+  /// @param placement must outlive this
+  /// @param near      by whole turns near which the twist is [rad]
   ClampedEnd(const PackLane& rod, std::uint32_t node, const Placement& placement, double near,
-             const std::optional<Eigen::Vector2d>& natural_bend)
+             const EndBend& end)
       : placement_(placement),
         rod_(rod),
         node_(node),
@@ -39,9 +46,15 @@ class ClampedEnd {
     if (rod.has_twist()) {
       twist_ = twist_of(placement, direction_.tangent, rod.director(edge_), rod.angle(edge_), near);
     }
-    if (natural_bend) {
-      bend_.emplace(NaturalBend::at_clamp(rod, node, *natural_bend,
-                                          {placement.tangent, placement.director, 0.0}));
+    const auto clamp = [&] { return CrossSection(placement.tangent, placement.director, 0.0); };
+    if (end.natural) {
+      bend_.emplace(NaturalBend::at_clamp(rod, node, *end.natural, clamp()));
+    }
+    if (end.stiff_side.stiffness > 0.0) {
+      const double rest =
+          end.natural ? StiffBend::rest(end.stiff_side, *end.natural, 0.5 * rod.rest_length(edge_))
+                      : 0.0;
+      stiff_bend_.emplace(StiffBend::at_clamp(rod, node, end.stiff_side, rest, clamp()));
     }
   }
 
@@ -51,6 +64,9 @@ class ClampedEnd {
     energy += rod_.has_twist() ? bending + 0.5 * twisting_ * twist_ * twist_ : bending;
     if (bend_) {
       energy += bend_->energy();
+    }
+    if (stiff_bend_) {
+      energy += stiff_bend_->energy();
     }
   }
 
@@ -63,6 +79,9 @@ class ClampedEnd {
     }
     if (bend_) {
       bend_->add_derivatives(system);
+    }
+    if (stiff_bend_) {
+      stiff_bend_->add_derivatives(system);
     }
   }
 
@@ -77,6 +96,9 @@ class ClampedEnd {
     }
     if (bend_) {
       moment += node_ == 0 ? Eigen::Vector3d(-bend_->moment()) : bend_->moment();
+    }
+    if (stiff_bend_) {
+      moment += node_ == 0 ? Eigen::Vector3d(-stiff_bend_->moment()) : stiff_bend_->moment();
     }
     return moment;
   }
@@ -120,6 +142,7 @@ class ClampedEnd {
   double twisting_;     // stiffness [J]
   double twist_ = 0.0;  // [rad]
   std::optional<NaturalBend> bend_;
+  std::optional<StiffBend> stiff_bend_;
 };
 
 }  // namespace fiber

@@ -4,72 +4,12 @@
 #include <cmath>
 
 #include "src/sim/require.hpp"
+#include "src/text/with_context.hpp"
 
 namespace fiber {
 
-using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-
-namespace {
-
-/// Derivative by the unknowns of an edge: its first node, its angle, its second node.
-using RotationByEdge = Eigen::Matrix<double, 3, 7>;
-
-/// The matrix of the cross product with a vector on the left.
-Matrix3d cross_matrix(const Vector3d& v) {
-  Matrix3d matrix;
-  matrix << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
-  return matrix;
-}
-
-CrossSection cross_section(const PackLane& rod, std::uint32_t edge) {
-  return {rod.direction(edge).tangent, rod.director(edge), rod.angle(edge)};
-}
-
-/// The derivative of the rotation of an edge's cross-section by the unknowns of the edge.
-RotationByEdge rotation_by_edge(const PackLane& rod, std::uint32_t edge) {
-  const EdgeDirection direction = rod.direction(edge);
-  const Matrix3d by_second =
-      cross_matrix(direction.tangent) / direction.length +
-      direction.tangent * director_turn(rod.start_tangent(edge), direction).transpose();
-  RotationByEdge rotation;
-  rotation << -by_second, direction.tangent, by_second;
-  return rotation;
-}
-
-/// Adds the derivatives of half the square of a residual.
-/// @param by_all derivative of the residual by all unknowns from the first node on
-template <class Residual, class ByAll>
-void add_square(std::uint32_t first_node, double stiffness, const Residual& residual,
-                const ByAll& by_all, RodSystem& system) {
-  const Eigen::Index count = by_all.cols();
-  for (Eigen::Index c = 0; c < count; c += 4) {
-    const auto node = first_node + static_cast<std::uint32_t>(c / 4);
-    const Vector3d gradient = by_all.template middleCols<3>(c).transpose() * residual;
-    system.add_gradient(node, stiffness * gradient);
-    if (c + 3 < count) {
-      system.add_angle_gradient(node, stiffness * by_all.col(c + 3).dot(residual));
-    }
-  }
-  const std::size_t start = std::size_t{first_node} * system.unknowns();
-  for (Eigen::Index c = 0; c < count; ++c) {
-    for (Eigen::Index r = c; r < count; ++r) {
-      system.add_hessian_entry(start + r, start + c, stiffness * by_all.col(r).dot(by_all.col(c)));
-    }
-  }
-}
-
-}  // namespace
-
-CrossSection::CrossSection(const Vector3d& tangent_there, const Vector3d& director, double angle)
-    : tangent(tangent_there) {
-  const Vector3d across = tangent.cross(director);
-  const double cosine = std::cos(angle);
-  const double sine = std::sin(angle);
-  first = cosine * director + sine * across;
-  second = cosine * across - sine * director;
-}
 
 NaturalBend::NaturalBend(const PackLane& rod, std::uint32_t node, const Vector2d& curvature,
                          double length, const CrossSection& before, const CrossSection& after)
@@ -146,14 +86,6 @@ Turn turn_between(const Rods& rods, std::uint32_t edge, std::uint32_t next) {
   return {std::atan2(across.norm(), cosine), has_side ? across.normalized() : any};
 }
 
-CrossSection cross_section(const Rods& rods, std::uint32_t edge) {
-  return {edge_direction(rods, edge).tangent, current_director(rods, edge), rods.angles[edge]};
-}
-
-Vector2d by_material(const CrossSection& section, const Vector3d& v) {
-  return {section.first.dot(v), section.second.dot(v)};
-}
-
 }  // namespace
 
 void set_natural_shape(Rods& rods) {
@@ -191,17 +123,11 @@ void set_natural_arc(Rods& rods, std::uint32_t rod, double curvature, const Vect
     throw std::invalid_argument("natural curvature: it has no side without twist");
   }
   require_not_negative("natural curvature: it", curvature, " 1/m");
-  const CrossSection section = cross_section(rods, rods.first(rod));
-  const Vector2d side = by_material(section, towards);
-  if (!(towards.allFinite() && side.norm() > 1e-6 * towards.norm())) {
-    throw std::invalid_argument(
-        "natural curvature: the side must be finite and not along the "
-        "first edge of rod " +
-        std::to_string(rod));
-  }
+  const Vector2d side =
+      with_context("natural curvature", [&] { return side_towards(rods, rod, towards); });
   rods.natural_curvature_vectors.resize(rods.positions.size(), Vector2d::Zero());
   for (std::uint32_t i = rods.first(rod); i < rods.end(rod); ++i) {
-    rods.natural_curvature_vectors[i] = curvature * side.normalized();
+    rods.natural_curvature_vectors[i] = curvature * side;
   }
 }
 

@@ -1,19 +1,8 @@
 #pragma once
 
-#include "src/sim/edges.hpp"
+#include "src/sim/effects/cross_section.hpp"
 
 namespace fiber {
-
-/// The tangent and the two material directions of a cross-section of a rod, or of a clamp.
-struct CrossSection {
-  /// @param director across the tangent, of unit length
-  /// @param angle    of the first material direction against it [rad]
-  CrossSection(const Eigen::Vector3d& tangent, const Eigen::Vector3d& director, double angle);
-
-  Eigen::Vector3d tangent;
-  Eigen::Vector3d first;
-  Eigen::Vector3d second;  ///< tangent x first
-};
 
 /// Bending of a rod with Rods::natural_curvature_vectors between two cross-sections a length l
 /// apart: ½ EI/l |r|², r = (t₂ − t̂₂ − t₁ + t̂₁) / 2 cos(φ₀/2), with their tangents t, the tangents t̂

@@ -119,6 +119,28 @@ void close_curve(const YamlField& closed, std::vector<Eigen::Vector3d>& curve) {
   curve.push_back(curve.front());
 }
 
+/// Whether any of it is stiffer towards one side than across that.
+bool is_anisotropic(const FiberEntry& fiber) {
+  return fiber.section.bending_ratio > 1.0 ||
+         std::any_of(fiber.sections.begin(), fiber.sections.end(),
+                     [](const SectionEntry& each) { return each.section.bending_ratio > 1.0; });
+}
+
+void read_stiff_side(const YamlField& entry, FiberEntry& fiber) {
+  const auto towards = entry.find("stiff_towards");
+  if (!is_anisotropic(fiber)) {
+    if (towards) {
+      towards->refuse("absent where no material has a bending_ratio above 1");
+    }
+    return;
+  }
+  const YamlField field = entry.get("stiff_towards");
+  if (fiber.is_closed) {
+    field.refuse("absent, as a bending_ratio above 1 is, where the fibre is closed");
+  }
+  fiber.stiff_side = SimStiffSide{field.vector(), field.statement()};
+}
+
 void read_body(const YamlField& entry, bool chooses_segments, FiberEntry& fiber) {
   const auto closed = entry.find("closed");
   fiber.is_closed = closed && closed->flag();
@@ -146,6 +168,7 @@ void read_body(const YamlField& entry, bool chooses_segments, FiberEntry& fiber)
   if (fiber.length > 0.0) {  // without a length it is refused when it is cut
     fiber.sections = read_sections(entry, {material, fiber.radius, fiber.length});
   }
+  read_stiff_side(entry, fiber);
 }
 
 FiberEntry read_fiber(const YamlField& entry, bool chooses_segments) {
@@ -191,8 +214,8 @@ void add(const FiberEntry& entry, std::int64_t segments, SimDescription& scene) 
       scene.rods.closed.resize(scene.rods.count(), 0);
       scene.rods.closed.back() = 1;
     }
-    scene.fibers.push_back(
-        {name, entry.name, entry.place, entry.length, entry.angular_velocity, nodes});
+    scene.fibers.push_back({name, entry.name, entry.place, entry.length, entry.angular_velocity,
+                            nodes, entry.stiff_side});
     scene.fiber_names.push_back(name);
   }
 }

@@ -31,6 +31,7 @@ struct FiberEntry {
   std::optional<std::int64_t> count;  ///< none: it is not repeated
   std::string repeat_place;
   bool is_closed = false;
+  std::optional<SimStiffSide> stiff_side;
   std::vector<double> joint_shares;  ///< of its length, at which it has nodes; rising
   std::string material_defaults;     ///< values that its material leaves open; empty for none
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< of each from the one before [m]

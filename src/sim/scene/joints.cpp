@@ -120,6 +120,7 @@ void rest_again_in_sections(Rods& rods, std::uint32_t rod) {
       rods.masses[node] += half * rods.sections[rod].mass_per_length;
       if (!rods.is_rigid(i)) {
         lengths.bending[node] += half;
+        lengths.stiff[node] += half / rods.sections[rod].bending_ratio;
         lengths.twisting[node] += half;
       }
     }

@@ -60,6 +60,10 @@ std::vector<SceneMap> fiber_maps() {
                   "where it is absent and there is `accuracy` or `real_time`"),
         number_key("radius", above_0, needed, "m", "of all of it but sections that have their own"),
         other_key("material", "a preset, or a map of moduli", needed, "", "see below"),
+        other_key("stiff_towards", three_numbers, "", "",
+                  "the side of its first segment to which materials with a `bending_ratio` are "
+                  "stiffer; needed where there is one above 1, and only then. Takes the effects "
+                  "`bend` and `twist`"),
         other_key("closed", "true or false", "false", "",
                   "its last segment leads back to where it begins; of three segments at least. Its "
                   "last node is the one before it is at its first one again"),
@@ -105,7 +109,11 @@ std::vector<SceneMap> fiber_maps() {
         number_key("shear_modulus", above_0, text_of(by_default.shear_modulus), "Pa", "G"),
         number_key("density", above_0, text_of(by_default.density), "kg/m³", ""),
         number_key("bending_share", {0.0, 1.0, true, false}, text_of(by_default.bending_share), "",
-                   "part of a solid rod's bending stiffness that sliding strands leave")}}};
+                   "part of a solid rod's bending stiffness that sliding strands leave"),
+        number_key(
+            "bending_ratio", {1.0, unlimited, false, false}, text_of(by_default.bending_ratio), "",
+            "how many times as stiff it is when it bends to `stiff_towards` as when it bends "
+            "across that: a flat cable")}}};
 }
 
 std::vector<SceneMap> shape_maps() {

@@ -35,6 +35,7 @@ RodMaterial read_material(const YamlField& field, const RodMaterial& otherwise,
   read("shear_modulus", material.shear_modulus, " Pa");
   read("density", material.density, " kg/m^3");
   read("bending_share", material.bending_share, "");
+  field.read("bending_ratio", material.bending_ratio);
   return material;
 }
 

@@ -67,5 +67,54 @@ TEST_F(SimSceneTest, SectionsThatCannotBeAreErrors) {
   }
 }
 
+/// A scene whose fibre has these keys beside its material.
+std::string of_material(const std::string& material, const std::string& keys,
+                        const std::string& effects) {
+  std::string text = scene_text(line, effects);
+  const std::string own = "material: rope";
+  text.replace(text.find(own), own.size(), "material: " + material + "\n    " + keys);
+  return text;
+}
+
+TEST_F(SimSceneTest, FlatCablesBendToOneSideLessThanToAnother) {
+  const Rods rods =
+      read(of_material("{preset: rope, bending_ratio: 5}",
+                       "stiff_towards: [3, 0, 2]\n    sections: [{from: 0.5, material: rope}]",
+                       "[stretch, bend, twist]"))
+          .stepper->rods();
+  ASSERT_EQ(rods.stiff_sides.size(), 5U);
+  const double bending = rods.sections[0].bending_stiffness;
+  EXPECT_NEAR(rods.stiff_sides[1].stiffness, 4.0 * bending / 0.25, 1e-9 * bending);
+  EXPECT_NEAR(rods.stiff_sides[2].stiffness, (1.0 / (0.125 / 5.0 + 0.125) - 4.0) * bending,
+              1e-9 * bending)
+      << "in series";
+  EXPECT_EQ(rods.stiff_sides[3].stiffness, 0.0);
+  const Eigen::Vector3d side =
+      rods.stiff_sides[1].side.x() * rods.directors[0] +
+      rods.stiff_sides[1].side.y() * rods.start_tangents[0].cross(rods.directors[0]);
+  EXPECT_LE((side - Eigen::Vector3d::UnitZ()).norm(), 1e-12);
+  EXPECT_TRUE(read(scene_text(line, "[stretch, bend, twist]")).stepper->rods().stiff_sides.empty());
+}
+
+TEST_F(SimSceneTest, StiffSidesThatCannotBeAreErrors) {
+  const std::string flat = "{preset: rope, bending_ratio: 5}";
+  EXPECT_EQ(error(of_material(flat, "", "[stretch, bend, twist]")),
+            "2: fibers[0] has no key 'stiff_towards' (fibre 'cable')");
+  EXPECT_EQ(error(of_material("rope", "stiff_towards: [0, 0, 1]", "[stretch, bend, twist]")),
+            "7: fibers[0].stiff_towards is [0, 0, 1], it must be absent where no material has a "
+            "bending_ratio above 1 (fibre 'cable')");
+  EXPECT_EQ(
+      error(of_material(flat, "stiff_towards: [0, 0, 1]", "[stretch, bend]")),
+      "7: fibers[0].stiff_towards is [0, 0, 1], but a bending_ratio above 1 takes the effects "
+      "bend and twist");
+  EXPECT_EQ(error(of_material(flat, "stiff_towards: [1, 0, 0]", "[stretch, bend, twist]")),
+            "7: fibers[0].stiff_towards is [1, 0, 0], it must be finite and a direction across the "
+            "fibre's first edge (fibre 'cable')");
+  EXPECT_EQ(error(of_material("{preset: rope, bending_ratio: 0.5}", "stiff_towards: [0, 0, 1]",
+                              "[stretch, bend, twist]")),
+            "6: fibers[0].material: bending_ratio is 0.500000, it must be at least 1 and finite "
+            "(fibre 'cable')");
+}
+
 }  // namespace
 }  // namespace fiber

@@ -50,6 +50,12 @@ struct SimSettings {
   double step_length() const { return time_step / substeps; }  ///< [s]
 };
 
+/// Towards which side a fibre's material is stiffer, if any is.
+struct SimStiffSide {
+  Eigen::Vector3d towards;  ///< of its first segment; of any length
+  std::string statement;    ///< where it stands and what it is, for errors
+};
+
 /// The fibre of a rod. Places are lines and fields of the file, for errors.
 struct SimFiber {
   std::string name;
@@ -60,6 +66,8 @@ struct SimFiber {
 
   /// The nodes by the shares of the length at which joints name them.
   std::map<double, std::uint32_t> nodes_at;
+
+  std::optional<SimStiffSide> stiff_side;
 };
 
 /// The numbers of an effect by the names of its options. Names of options in a map begin with that

@@ -1,0 +1,201 @@
+// Rods that bend more easily to one side than to another.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <utility>
+
+#include "fiber_proximity/sim/effects.hpp"
+#include "fiber_proximity/sim/loads.hpp"
+#include "src/sim/effects/natural_bend.hpp"
+#include "test/sim/effect_derivatives.hpp"
+#include "test/sim/random_rods.hpp"
+#include "test/support/error_of.hpp"
+#include "validation/sim/rod_scene.hpp"
+
+namespace fiber::test {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr int strip_edges = 50;
+constexpr double strip_ratio = 4.0;
+
+RodSection strip(double times) { return {1e5, 1.0, 0.8, 1.0, 1e-4, times}; }
+
+/// Effects of a rod of 1 m along x, clamped at its first node, and its last one loaded.
+struct StripScene {
+  Rods rods;
+  Effects effects;
+};
+
+StripScene strip_scene(Rods rods, const Vector3d& side, const Vector3d& force) {
+  StripScene made{std::move(rods), {}};
+  made.effects = effects(std::make_unique<Stretch>(), std::make_unique<Bend>(),
+                         std::make_unique<Twist>(made.rods));
+  if (side != Vector3d::Zero()) {
+    made.rods.set_stiff_side(0, side);
+    made.effects.push_back(std::make_unique<AnisotropicBend>());
+  }
+  auto loads = std::make_unique<Loads>();
+  Loads::Load load;
+  load.node = strip_edges;
+  load.force = TimeTable<Vector3d>(force);
+  loads->add(made.rods, load);
+  made.effects.push_back(std::move(loads));
+  made.effects.push_back(
+      hold(made.rods, {clamp(0, {Vector3d::Zero(), Vector3d::UnitX(), made.rods.directors[0]})}));
+  return made;
+}
+
+Vector3d settled_tip(StripScene scene) {
+  Stepper stepper(scene.rods, std::move(scene.effects), precise());
+  settle(stepper);
+  return stepper.rods().positions[strip_edges];
+}
+
+Rods rod_of(const RodSection& section) {
+  Rods rods;
+  rods.add(straight({0, 0, 0}, {1, 0, 0}, strip_edges), 0.01, section);
+  return rods;
+}
+
+/// Whatever side it is: along it so many times as stiff, across it as it was, each for itself.
+TEST(AnisotropicBend, ACantileverGivesWayByItsTwoStiffnesses) {
+  constexpr double force = 1e-3;
+  for (const double degrees : {0.0, 35.0, 90.0}) {
+    SCOPED_TRACE(degrees);
+    const double angle = degrees * M_PI / 180.0;
+    const Vector3d side(0.3, std::cos(angle),
+                        std::sin(angle));  // what is along the rod is left out
+    const Vector3d stiff(0.0, std::cos(angle), std::sin(angle));
+    const Vector3d soft(0.0, -std::sin(angle), std::cos(angle));
+    const Vector3d tip =
+        settled_tip(strip_scene(rod_of(strip(strip_ratio)), side, force * (stiff + soft)));
+    EXPECT_NEAR(tip.dot(soft), force / 3.0, 0.005 * force / 3.0);
+    EXPECT_NEAR(tip.dot(stiff), force / 3.0 / strip_ratio, 0.005 * force / 3.0 / strip_ratio);
+  }
+}
+
+/// In the plane of the stiff side it is a round rod of that stiffness, however far it bends.
+TEST(AnisotropicBend, BendsFarAsARoundRodOfThatStiffness) {
+  RodSection round = strip(1.0);
+  round.bending_stiffness *= strip_ratio;
+  const Vector3d force(0.0, 0.0, -5.0 * round.bending_stiffness);
+  const Vector3d expected = settled_tip(strip_scene(rod_of(round), Vector3d::Zero(), force));
+  ASSERT_LT(expected.z(), -0.6) << "it bends far";
+  const Vector3d tip =
+      settled_tip(strip_scene(rod_of(strip(strip_ratio)), Vector3d::UnitZ(), force));
+  EXPECT_LE((tip - expected).norm(), 0.005);
+}
+
+/// By the integral of the squared lever over each part, with a step inside of an edge.
+TEST(AnisotropicBend, OfPartsGivesWayInSeries) {
+  constexpr double force = 1e-3;
+  constexpr double step = 0.413;
+  Rods rods = rod_of(strip(strip_ratio));
+  rods.set_sections(0, {{{step, 1.0}, strip(1.0)}});
+  const Vector3d tip =
+      settled_tip(strip_scene(std::move(rods), Vector3d::UnitZ(), force * Vector3d(0.0, 1.0, 1.0)));
+  const double rest = std::pow(1.0 - step, 3);
+  const double expected = force / 3.0 * ((1.0 - rest) / strip_ratio + rest);
+  EXPECT_NEAR(tip.z(), expected, 0.005 * expected);
+  EXPECT_NEAR(tip.y(), force / 3.0, 0.005 * force / 3.0);
+}
+
+/// A strip on edge gives way sideways when its clamp is turned: cross-sections carry the side
+/// along.
+TEST(AnisotropicBend, TheSideTurnsWithTheClamp) {
+  constexpr double force = 1e-3;
+  StripScene turned =
+      strip_scene(rod_of(strip(strip_ratio)), Vector3d::UnitZ(), {0.0, 0.0, -force});
+  turned.effects.pop_back();
+  const Vector3d director = turned.rods.directors[0];
+  turned.effects.push_back(
+      hold(turned.rods, {{0, 0, Attachment::Kind::CLAMP, [director](double time) {
+                            const double angle = std::min(1.0, time) * 0.5 * M_PI;
+                            const Eigen::AngleAxisd turn(angle, Vector3d::UnitX());
+                            return Placement{Vector3d::Zero(), Vector3d::UnitX(), turn * director};
+                          }}}));
+  Stepper stepper(turned.rods, std::move(turned.effects), precise());
+  for (int i = 0; i < 50; ++i) {
+    stepper.step(0.02);
+  }
+  settle(stepper);
+  const double sag = -stepper.rods().positions[strip_edges].z();
+  EXPECT_NEAR(sag, force / 3.0, 0.005 * force / 3.0);
+}
+
+TEST(AnisotropicBend, AShapeThatIsNaturalIsAtRest) {
+  SCOPED_TRACE(seed_message());
+  Random random(52);
+  for (int round = 0; round < 20; ++round) {
+    Rods rods;
+    rods.add(random_chain(random, 8, 0.1), 0.01, strip(strip_ratio));
+    const Twist twist(rods);
+    rods.set_stiff_side(0, random.direction());
+    AnisotropicBend bend;
+    bend.begin_step(rods, {0.0, 0.01});
+    const double straight_at_rest = energy_of(bend, rods);
+    set_natural_shape(rods);
+    bend.begin_step(rods, {0.0, 0.01});
+    EXPECT_GT(straight_at_rest, 0.1);
+    EXPECT_LE(energy_of(bend, rods), 1e-20 * straight_at_rest);
+  }
+}
+
+TEST(AnisotropicBend, DerivativesAreThoseOfTheEnergy) {
+  SCOPED_TRACE(seed_message());
+  Random random(51);
+  for (int round = 0; round < 30; ++round) {
+    Rods rods;
+    RodSection section = random_section(random);
+    section.bending_ratio = random.uniform(1.5, 10.0);
+    rods.add(random_chain(random, random.integer(3, 7), 0.3), 0.01, section);
+    Twist twist(rods);
+    rods.set_stiff_side(0, random.direction());
+    if (round % 2 == 0) {
+      rods.natural_curvature_vectors.assign(rods.positions.size(), {1.0, -2.0});
+    }
+    AnisotropicBend bend;
+    Attachment attachment;
+    const Vector3d tangent = (rods.positions[1] - rods.positions[0]).normalized();
+    attachment.add(rods, clamp(0, {rods.positions[0], tangent, rods.directors[0]}));
+    for (Effect* const effect : std::initializer_list<Effect*>{&bend, &attachment}) {
+      effect->begin_step(rods, {0.0, 1e3});  // so long that the hold is soft
+    }
+    displace(rods, random, 0.03, 0.5);
+    for (const Effect* const effect : std::initializer_list<Effect*>{&bend, &attachment}) {
+      const Derivatives found = derivatives_of(*effect, rods, 0);
+      const Eigen::VectorXd expected = gradient_by_differences(*effect, rods, 0, 1e-6);
+      ASSERT_LE((found.gradient - expected).norm(), 1e-5 * (1.0 + expected.norm()))
+          << "round " << round;
+      const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(found.hessian);
+      ASSERT_GE(eigen.eigenvalues().minCoeff(), -1e-9 * found.hessian.norm());
+    }
+    expect_same_side_by_side(bend, rods);
+  }
+}
+
+TEST(AnisotropicBend, SidesThatCannotBeAreRefused) {
+  Rods rods = rod_of(strip(strip_ratio));
+  const auto error = [&](const Vector3d& side) {
+    return error_of([&] { rods.set_stiff_side(0, side); });
+  };
+  EXPECT_EQ(error(Vector3d::UnitZ()),
+            "rod 0: stiff side: cross-sections have no side without twist");
+  const Twist twist(rods);
+  EXPECT_EQ(error(Vector3d::UnitX()),
+            "rod 0: stiff side: the side must be finite and not along the first edge of rod 0");
+  EXPECT_EQ(error(Vector3d(0.0, NAN, 1.0)),
+            "rod 0: stiff side: the side must be finite and not along the first edge of rod 0");
+  EXPECT_TRUE(rods.stiff_sides.empty());
+  EXPECT_EQ(error_of([&] {
+              Rods others;
+              others.add(straight({0, 0, 0}, {1, 0, 0}, 2), 0.01, strip(0.5));
+            }),
+            "bending_ratio is 0.500000, it must be at least 1 and finite");
+}
+
+}  // namespace
+}  // namespace fiber::test
