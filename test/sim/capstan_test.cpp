@@ -58,6 +58,18 @@ TEST(Capstan, ADrumSlipsUnderABelt) {
   }
 }
 
+TEST(Capstan, ABeltSlipsOnTheSmallDrumAndGripsTheLargeOne) {
+  for (const double friction : {0.2, 0.4}) {
+    for (const bool turns_large : {true, false}) {
+      SCOPED_TRACE(std::to_string(friction) + (turns_large ? ", large" : ", small") + " one turns");
+      const BeltDrive found = simulated_belt_drive(turns_large, friction);
+      const BeltDrive exact = exact_belt_drive(turns_large, friction);
+      EXPECT_NEAR(found.tension_ratio, exact.tension_ratio, 0.02 * exact.tension_ratio);
+      EXPECT_NEAR(found.speed, exact.speed, 0.002);
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Ropes, CapstanOf, testing::ValuesIn(all_ropes()));
 
 /// Half the edges' length, a quarter of the error.

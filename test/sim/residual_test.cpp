@@ -160,8 +160,22 @@ std::vector<double> residuals(const ExtraScene& scene, const Rods& before, const
         mass += after.masses[other];
       }
     }
-    const Vector3d change = after.velocities[node] - before.velocities[node];
-    left.push_back((balance_step * force / mass - change).norm());
+    const auto change_of = [&](std::size_t i) -> Vector3d {
+      return after.velocities[i] - before.velocities[i];
+    };
+    // What a bar has beyond the half of its mass at each end, and how little an end of it resists.
+    for (const std::size_t edge : {node, node - 1}) {
+      if (edge < forces.size() && after.is_rigid(static_cast<std::uint32_t>(edge))) {
+        const std::size_t other = 2 * edge + 1 - node;
+        const double coupling = after.mass_couplings[edge];
+        force += coupling * (change_of(node) - change_of(other)) / balance_step;
+        const double others = after.masses[other] - coupling;
+        const double resists = mass - coupling - coupling * coupling / others;
+        force += (resists - mass) * change_of(node) / balance_step;
+        mass = resists;
+      }
+    }
+    left.push_back((balance_step * force / mass - change_of(node)).norm());
   }
   return left;
 }

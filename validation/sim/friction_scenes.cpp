@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
+#include "fiber_proximity/sim/joints.hpp"
 #include "fiber_proximity/sim/moving_obstacles.hpp"
 #include "validation/sim/contact_scenes.hpp"
 
@@ -91,27 +93,39 @@ double Incline::normal_force() const {
 
 namespace {
 
-/// The post, which turns the other way at the speed at which a rope is drawn, or stands.
-std::unique_ptr<Contacts> contacts_with_post(double turn_rate, double friction) {
+/// A cylinder along z that turns about its axis.
+/// @param turn_rate [rad/s]
+MovingObstacle drum_at(const Vector3d& center, double radius, double turn_rate) {
+  MovingObstacle drum;
+  drum.object.name = "drum of " + std::to_string(radius) + " m";
+  drum.object.shapes.push_back({CylinderShape{radius, 1.0}, Eigen::Isometry3d::Identity()});
+  drum.placement = [center, turn_rate](double time) {
+    return Eigen::Isometry3d(Eigen::Translation3d(center) *
+                             Eigen::AngleAxisd(turn_rate * time, Vector3d::UnitZ()));
+  };
+  return drum;
+}
+
+std::unique_ptr<Contacts> contacts_with_drums(const std::vector<MovingObstacle>& drums,
+                                              double friction) {
   std::vector<std::unique_ptr<ContactSource>> sources;
-  std::shared_ptr<ObstacleMotions> motions;
-  const CylinderShape post{post_radius, 1.0};
-  if (turn_rate == 0.0) {
-    sources.push_back(
-        std::make_unique<EnvironmentContact>(environment_of(post), EnvironmentContact::Options{}));
-  } else {
-    MovingObstacle drum;
-    drum.object.name = "drum";
-    drum.object.shapes.push_back({post, Eigen::Isometry3d::Identity()});
-    drum.placement = [turn_rate](double time) {
-      return Eigen::Isometry3d(Eigen::AngleAxisd(-turn_rate * time, Vector3d::UnitZ()));
-    };
-    motions = std::make_shared<ObstacleMotions>(std::vector<MovingObstacle>{drum}, 0);
-    sources.push_back(
-        std::make_unique<MovingObstacleContact>(motions, EnvironmentContact::Options{}));
-  }
+  const auto motions = std::make_shared<ObstacleMotions>(drums, 0);
+  sources.push_back(
+      std::make_unique<MovingObstacleContact>(motions, EnvironmentContact::Options{}));
   return std::make_unique<Contacts>(
       std::move(sources), std::make_unique<Friction>(Friction::Options{friction, 1e-3}), motions);
+}
+
+/// The post, which turns the other way at the speed at which a rope is drawn, or stands.
+std::unique_ptr<Contacts> contacts_with_post(double turn_rate, double friction) {
+  if (turn_rate != 0.0) {
+    return contacts_with_drums({drum_at(Vector3d::Zero(), post_radius, -turn_rate)}, friction);
+  }
+  std::vector<std::unique_ptr<ContactSource>> sources;
+  sources.push_back(std::make_unique<EnvironmentContact>(
+      environment_of(CylinderShape{post_radius, 1.0}), EnvironmentContact::Options{}));
+  return std::make_unique<Contacts>(std::move(sources),
+                                    std::make_unique<Friction>(Friction::Options{friction, 1e-3}));
 }
 
 double ratio_of_tensions(const Capstan& capstan, double friction, bool turns_post) {
@@ -164,6 +178,113 @@ double tension_ratio(const Capstan& capstan, double friction) {
 
 double tension_ratio_on_drum(const Capstan& capstan, double friction) {
   return ratio_of_tensions(capstan, friction, true);
+}
+
+namespace {
+
+constexpr double belt_radius = 1e-3;  // [m] of its cross-section
+constexpr double large_drum = 0.04;   // [m] radii
+constexpr double small_drum = 0.02;
+constexpr double drum_distance = 0.1;  // [m] of their axes, along x from the large one
+
+/// From x to where the belt leaves both drums: half of the angle by which it is around the small
+/// one.
+double angle_of_leaving() { return std::acos((large_drum - small_drum) / drum_distance); }
+
+/// A loop around both drums, a little away from them: an edge of a polygon is nearer than its ends.
+std::vector<Vector3d> around_drums(int edges_per_small_turn) {
+  constexpr double away = 1.05 * belt_radius;
+  const double large = large_drum + away;
+  const double small = small_drum + away;
+  const double leaving = angle_of_leaving();
+  const double straight =
+      std::sqrt(drum_distance * drum_distance - (large - small) * (large - small));
+  const double on_large = large * 2.0 * (M_PI - leaving);
+  const double on_small = small * 2.0 * leaving;
+  const double length = on_large + on_small + 2.0 * straight;
+  const auto on_circle = [](double center, double radius, double angle) {
+    return Vector3d(center + radius * std::cos(angle), radius * std::sin(angle), 0.0);
+  };
+  const auto point_at = [&](double way) -> Vector3d {
+    if (way < on_large) {
+      return on_circle(0.0, large, leaving + way / large);
+    }
+    way -= on_large;
+    const Vector3d across = on_circle(0.0, 1.0, -leaving);
+    const Vector3d along(-across.y(), across.x(), 0.0);
+    if (way < straight) {
+      return large * across + way * along;
+    }
+    way -= straight;
+    if (way < on_small) {
+      return on_circle(drum_distance, small, -leaving + way / small);
+    }
+    const Vector3d last = on_circle(drum_distance, small, leaving);
+    return last + (way - on_small) * Vector3d(-std::sin(leaving), std::cos(leaving), 0.0);
+  };
+  const auto edges =
+      static_cast<int>(std::lround(length / (2.0 * M_PI * small / edges_per_small_turn)));
+  std::vector<Vector3d> points;
+  for (int i = 0; i < edges; ++i) {
+    points.push_back(point_at(length * i / edges));
+  }
+  points.push_back(points.front());
+  return points;
+}
+
+}  // namespace
+
+BeltDrive simulated_belt_drive(bool turns_large, double friction) {
+  constexpr int edges_per_turn = 72;
+  constexpr double strain = 2e-3;
+  constexpr int steps_per_edge = 48;
+  constexpr int edges_before = 5;  // until all of it slides
+  const std::vector<Vector3d> points = around_drums(edges_per_turn);
+  Rods rods;
+  rods.add(points, belt_radius, solid_round_section(material_preset("rope"), belt_radius));
+  rods.closed = {1};
+  for (double& length : rods.rest_lengths) {
+    length *= 1.0 - strain;
+  }
+  auto joints = std::make_unique<Joints>(Joints::Options{});
+  joints->close(rods, 0);
+  const double speed = rods.rest_lengths[0] / (steps_per_edge * step_length);
+  const double turn_rate = speed / (turns_large ? large_drum : small_drum);
+  Stepper stepper(
+      rods, elastic(), StepperOptions{},
+      contacts_with_drums(
+          {drum_at(Vector3d::Zero(), large_drum, turns_large ? turn_rate : 0.0),
+           drum_at({drum_distance, 0.0, 0.0}, small_drum, turns_large ? 0.0 : turn_rate)},
+          friction),
+      std::move(joints));
+  double upper = 0.0;  // tensions of the middles of both straight parts
+  double lower = 0.0;
+  double way = 0.0;
+  for (int i = 0; i < (edges_before + 1) * steps_per_edge; ++i) {
+    stepper.step(step_length);
+    if (i < edges_before * steps_per_edge) {
+      continue;
+    }
+    const Rods& now = stepper.rods();
+    const RodForces forces = stepper.forces();
+    double along = 0.0;
+    for (std::uint32_t edge = 0; edge + 1 < now.node_count(0); ++edge) {
+      const Vector3d middle = 0.5 * (now.positions[edge] + now.positions[edge + 1]);
+      const Vector3d tangent = (now.positions[edge + 1] - now.positions[edge]).normalized();
+      along += now.velocities[edge].dot(tangent);
+      if (std::abs(middle.x() - 0.5 * drum_distance) < 0.2 * drum_distance) {
+        (middle.y() > 0.0 ? upper : lower) += forces.tensions[edge];
+      }
+    }
+    way += step_length * along / (now.node_count(0) - 1);
+  }
+  return {std::max(upper, lower) / std::min(upper, lower),
+          way / (speed * steps_per_edge * step_length)};
+}
+
+BeltDrive exact_belt_drive(bool turns_large, double friction) {
+  return {std::exp(friction * 2.0 * angle_of_leaving()),
+          turns_large ? 1.0 + belt_radius / large_drum : 0.0};
 }
 
 double lowering_of_simulated_tip(double friction, int segments) {

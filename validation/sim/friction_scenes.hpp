@@ -51,6 +51,20 @@ double tension_ratio(const Capstan& capstan, double friction);
 /// The same where the rope is held and the post turns under it, as a drum does under a belt.
 double tension_ratio_on_drum(const Capstan& capstan, double friction);
 
+/// What a belt around two drums does, one of which turns and the other one stands.
+struct BeltDrive {
+  double tension_ratio;  ///< of its tight and its slack side
+  double speed;          ///< along itself, over that of the surface of the drum that turns
+};
+
+/// A closed rope, a little too short, around a drum and one of half its size.
+/// @param turns_large whether the large drum turns, and not the small one
+BeltDrive simulated_belt_drive(bool turns_large, double friction);
+
+/// It slips on the small one, which it is around by the smaller angle (Euler and Eytelwein), and
+/// grips the large one, on whose surface its inside is.
+BeltDrive exact_belt_drive(bool turns_large, double friction);
+
 /// A rod without weight hangs from a clamp that points down and is lowered onto a plane, slowly:
 /// how much nearer to its tip than its length the clamp is where the tip slides, over the length.
 double lowering_of_simulated_tip(double friction, int segments);
