@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "src/hierarchy/candidates-inl.hpp"
 #include "src/hierarchy/probe-inl.hpp"

@@ -206,28 +206,6 @@ void set_spins(const SimDescription& description, Rods& rods) {
   }
 }
 
-/// Has the rods of fibres bend as their materials say, with twist.
-void set_stiff_sides(const SimDescription& description, Rods& rods) {
-  for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
-    const std::optional<SimStiffSide>& side = description.fibers[rod].stiff_side;
-    if (!side) {
-      continue;
-    }
-    if (!description.has_effect("bend") || !description.has_effect("twist")) {
-      throw std::invalid_argument(side->statement +
-                                  ", but a bending_ratio above 1 takes the effects bend and twist");
-    }
-    try {
-      rods.set_stiff_side(rod, side->towards);
-    } catch (const std::invalid_argument&) {
-      throw std::invalid_argument(side->statement +
-                                  ", it must be finite and a direction across the fibre's first "
-                                  "edge (fibre " +
-                                  quote(description.fiber_names[rod]) + ")");
-    }
-  }
-}
-
 /// Null if the scene names no contact effect.
 std::unique_ptr<Contacts> make_contacts(const SimDescription& description, SimScene& scene) {
   std::vector<std::unique_ptr<ContactSource>> sources;
@@ -346,9 +324,7 @@ MadeEffects make_effects(const SimDescription& description, Rods& rods, SimScene
   set_spins(description, rods);
   set_natural_curvature(description, rods);
   set_stiff_sides(description, rods);
-  if (!rods.stiff_sides.empty()) {
-    add(std::make_shared<AnisotropicBend>());
-  }
+  add(rods.stiff_sides.empty() ? nullptr : std::make_shared<AnisotropicBend>());
   const SimCurvature& natural = description.natural_curvature;
   const bool bends_to_be_straight = description.has_effect("bend") && natural.curvature == 0.0 &&
                                     !natural.is_from_shape && !description.has_effect("plasticity");

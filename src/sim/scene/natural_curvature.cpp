@@ -1,4 +1,4 @@
-// Options of the effect `bend`.
+// How fibres bend: options of the effect `bend`, and to which side materials are stiffer.
 #include <cmath>
 
 #include "src/sim/effects/natural_bend.hpp"
@@ -84,6 +84,27 @@ void set_natural_curvature(const SimDescription& scene, Rods& rods) {
   } else if (natural.curvature > 0.0) {
     rods.natural_curvatures.assign(rods.positions.size(), natural.curvature);
     leave_rigid_parts_out(rods, rods.natural_curvatures);
+  }
+}
+
+void set_stiff_sides(const SimDescription& scene, Rods& rods) {
+  for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
+    const std::optional<SimStiffSide>& side = scene.fibers[rod].stiff_side;
+    if (!side) {
+      continue;
+    }
+    if (!scene.has_effect("bend") || !scene.has_effect("twist")) {
+      throw std::invalid_argument(side->statement +
+                                  ", but a bending_ratio above 1 takes the effects bend and twist");
+    }
+    try {
+      rods.set_stiff_side(rod, side->towards);
+    } catch (const std::invalid_argument&) {
+      throw std::invalid_argument(side->statement +
+                                  ", it must be finite and a direction across the fibre's first "
+                                  "edge (fibre " +
+                                  quote(scene.fiber_names[rod]) + ")");
+    }
   }
 }
 

@@ -131,6 +131,12 @@ SimCurvature read_natural_curvature(const YamlField& bend, bool has_twist);
 ///         side to which it is to bend
 void set_natural_curvature(const SimDescription& scene, Rods& rods);
 
+/// Has the rods of fibres bend as their materials say.
+/// @param rods with twist, have their frames already
+/// @throws std::invalid_argument naming file, line and fibre, where an effect that this takes is
+///         not named, or the fibre does not have the side
+void set_stiff_sides(const SimDescription& scene, Rods& rods);
+
 /// The size of the gravity that a scene names, where it changes in time the largest [m/s²]; 0
 /// without.
 double gravity_of(const SimDescription& scene);
