@@ -167,27 +167,44 @@ TEST(DistributedHalo, ServesWhilePointsMoveLittle) {
   }
 }
 
-/// As fast towards each other as all points move, until what is far apart is near.
+/// Two layers of lines, one above the other and half a line's piece beside it.
+FiberAssembly layers(double gap) {
+  AssemblyBuilder builder;
+  for (int line = 0; line < 80; ++line) {
+    const bool is_upper = line % 2 == 1;
+    for (int point = 0; point <= 40; ++point) {
+      builder.add_point({0.025 * point + (is_upper ? 0.06 : 0.0), is_upper ? gap : 0.0,
+                         0.05 * static_cast<double>(line / 2)});
+    }
+    builder.end_fiber();
+  }
+  return builder.build({0.002});
+}
+
+/// What is far apart comes as fast towards each other as all points move, until it touches.
 TEST(DistributedHalo, ServesNoLongerThanUntilTwoMayMeet) {
   Random random;
-  FiberAssembly fibers = walks(random, 300, 20, 0.05, 0.002);
-  const std::vector<ScatteredPart> scattered = scatter(fibers, 2, random);
+  constexpr int frames = 30;
+  constexpr double step = 3e-4;  // [m] that each layer moves
+  const auto at_frame = [](int frame) { return layers(0.018 - 2.0 * step * frame); };
+  const std::vector<ScatteredPart> scattered = scatter(at_frame(0), 2, random);
   DistributedEngine engine(MPI_COMM_WORLD, one_thread());
-  constexpr int frames = 24;
+  std::size_t contacts = 0;
   for (int frame = 0; frame < frames; ++frame) {
-    const DistributedFibers mine = scattered_to(own_rank(), fibers, scattered);
-    engine.update(mine.parts, mine.names);
-    ASSERT_TRUE(same_as_one_process(answer(engine, within(0.0)),
-                                    answer("run_tree", fibers, within(0.0)).contacts))
-        << "frame " << frame;
+    FiberAssembly fibers = at_frame(frame);
     std::vector<Eigen::Vector3d> points = fibers.points();
-    for (std::uint32_t fiber = 0; fiber < fibers.fiber_count(); ++fiber) {
-      for (std::uint32_t p = fibers.offsets()[fiber]; p < fibers.offsets()[fiber + 1]; ++p) {
-        points[p].x() += fiber % 2 == 0 ? 3e-4 : -3e-4;
-      }
+    for (Eigen::Vector3d& point : points) {
+      point.y() += step * frame;
     }
     fibers = FiberAssembly(std::move(points), fibers.offsets(), fibers.radii());
+    const DistributedFibers mine = scattered_to(own_rank(), fibers, scattered);
+    engine.update(mine.parts, mine.names);
+    const QueryResult expected = answer("run_tree", fibers, within(0.0));
+    contacts = expected.contacts.size();
+    ASSERT_TRUE(same_as_one_process(answer(engine, within(0.0)), expected.contacts))
+        << "frame " << frame;
   }
+  EXPECT_GT(contacts, 1000U) << "they touch in the end";
   EXPECT_TRUE(rank_count() == 1 || engine.facts().halo_search_count < frames / 2);
 }
 
