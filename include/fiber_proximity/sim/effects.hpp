@@ -140,7 +140,7 @@ class Plasticity : public Effect {
 
   /// Adds Rods::natural_curvatures if there are none.
   /// @throws std::invalid_argument naming the value that is out of its range, or for rods with
-  ///         natural curvature vectors
+  ///         natural curvature vectors or stiff sides
   Plasticity(Rods& rods, const Options& options);
 
   void end_step(Rods& rods, const TimeStep& step) override;

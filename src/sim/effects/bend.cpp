@@ -226,6 +226,10 @@ Plasticity::Plasticity(Rods& rods, const Options& options) : options_(options) {
     throw std::invalid_argument(
         "plasticity: what stays has no direction, natural curvature must have none, too");
   }
+  if (!rods.stiff_sides.empty()) {
+    throw std::invalid_argument(
+        "plasticity: what stays has no direction, no fibre must be stiffer to one side");
+  }
   rods.natural_curvatures.resize(rods.positions.size(), 0.0);
 }
 

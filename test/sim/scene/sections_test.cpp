@@ -110,6 +110,10 @@ TEST_F(SimSceneTest, StiffSidesThatCannotBeAreErrors) {
   EXPECT_EQ(error(of_material(flat, "stiff_towards: [1, 0, 0]", "[stretch, bend, twist]")),
             "7: fibers[0].stiff_towards is [1, 0, 0], it must be finite and a direction across the "
             "fibre's first edge (fibre 'cable')");
+  EXPECT_EQ(
+      error(of_material(flat, "stiff_towards: [0, 0, 1]", "[bend, twist, plasticity]")),
+      "8: effects[2]: plasticity: what stays has no direction, no fibre must be stiffer to one "
+      "side");
   EXPECT_EQ(error(of_material("{preset: rope, bending_ratio: 0.5}", "stiff_towards: [0, 0, 1]",
                               "[stretch, bend, twist]")),
             "6: fibers[0].material: bending_ratio is 0.500000, it must be at least 1 and finite "
