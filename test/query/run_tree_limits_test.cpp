@@ -6,6 +6,7 @@
 #include "test/support/answers.hpp"
 #include "test/support/contacts.hpp"
 #include "test/support/not_finite.hpp"
+#include "test/support/rounds.hpp"
 #include "test/support/tangle.hpp"
 
 namespace fiber::test {
@@ -53,7 +54,7 @@ TEST_P(RunTreeLimits, GiveTheSameForAnyNumberOfThreads) {
       // Few that are deep rule the others out: so many pairs are enough to find them.
       const bool is_enough = pairs == 100'000 && contacts == 100;
       EXPECT_EQ(found_.complete, is_enough);
-      if (is_enough) {
+      if (is_enough && rounds_less == 1) {  // sanitizers have nothing to see in brute force
         static const QueryResult expected = brute_force(fibers, closest);  // for all skins
         EXPECT_TRUE(same_contacts(found_.contacts, expected.contacts));
       }
