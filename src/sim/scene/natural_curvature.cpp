@@ -52,6 +52,20 @@ SimCurvature read_natural_curvature(const YamlField& bend, bool has_twist) {
 
 namespace {
 
+/// Gives a rod a side; errors name what says which.
+template <class Set>
+void set_side(const SimDescription& scene, std::uint32_t rod, const std::string& statement,
+              const Set& set) {
+  try {
+    set();
+  } catch (const std::invalid_argument&) {
+    throw std::invalid_argument(statement +
+                                ", it must be finite and a direction across the fibre's first "
+                                "edge (fibre " +
+                                quote(scene.fiber_names[rod]) + ")");
+  }
+}
+
 /// Rigid parts have no natural curvature: what a node beside one turns by is that of its other
 /// edge.
 template <class Curvatures>
@@ -71,14 +85,8 @@ void set_natural_curvature(const SimDescription& scene, Rods& rods) {
     set_natural_shape(rods);
   } else if (natural.towards) {
     for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
-      try {
-        set_natural_arc(rods, rod, natural.curvature, *natural.towards);
-      } catch (const std::invalid_argument&) {
-        throw std::invalid_argument(natural.towards_statement +
-                                    ", it must be finite and a direction across the fibre's first "
-                                    "edge (fibre " +
-                                    quote(scene.fiber_names[rod]) + ")");
-      }
+      set_side(scene, rod, natural.towards_statement,
+               [&] { set_natural_arc(rods, rod, natural.curvature, *natural.towards); });
     }
     leave_rigid_parts_out(rods, rods.natural_curvature_vectors);
   } else if (natural.curvature > 0.0) {
@@ -97,14 +105,7 @@ void set_stiff_sides(const SimDescription& scene, Rods& rods) {
       throw std::invalid_argument(side->statement +
                                   ", but a bending_ratio above 1 takes the effects bend and twist");
     }
-    try {
-      rods.set_stiff_side(rod, side->towards);
-    } catch (const std::invalid_argument&) {
-      throw std::invalid_argument(side->statement +
-                                  ", it must be finite and a direction across the fibre's first "
-                                  "edge (fibre " +
-                                  quote(scene.fiber_names[rod]) + ")");
-    }
+    set_side(scene, rod, side->statement, [&] { rods.set_stiff_side(rod, side->towards); });
   }
 }
 

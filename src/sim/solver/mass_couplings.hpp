@@ -14,10 +14,13 @@ class MassCouplings {
  public:
   void assign(const Rods& rods, const RodPack& pack) {
     edges_.clear();
+    if (rods.mass_couplings.empty()) {
+      return;
+    }
     for (std::uint32_t edge = 0; edge + 1 < pack.node_count; ++edge) {
       SimdBatch masses;
       bool is_any = false;
-      for (std::size_t lane = 0; lane < lane_count && !rods.mass_couplings.empty(); ++lane) {
+      for (std::size_t lane = 0; lane < lane_count; ++lane) {
         masses[lane] = rods.mass_couplings[pack.first_nodes[lane] + edge];
         is_any = is_any || masses[lane] != 0.0;
       }

@@ -68,11 +68,12 @@ class PackStep {
     load_constants(rods, pack_);
     couplings_.assign(rods, pack_);
     for_each_node(pack_, lane_count, [&](std::size_t lane, std::size_t place, std::uint32_t node) {
+      const double scale = step_length_ / mass_against_impulse(rods, node);
       for (std::uint32_t k = 0; k < 3; ++k) {
         predicted_[place + k][lane] =
             rods.positions[node][k] + step_length_ * rods.velocities[node][k];
         inertias_[place + k][lane] = rods.masses[node];
-        scales_[place + k][lane] = step_length_ / mass_against_impulse(rods, node);
+        scales_[place + k][lane] = scale;
       }
       if (unknowns == 4) {
         predicted_[place + 3][lane] = rods.angles[node] + step_length_ * rods.spins[node];
