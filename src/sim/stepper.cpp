@@ -137,7 +137,7 @@ void Stepper::step(double length) {
   } else {
     step_by_bdf2(length);
   }
-  solver_->keep_anchors(rods_);
+  solver_->end_step(rods_);
   for (const auto& effect : effects_) {
     effect->end_step(rods_, {time_, length});
   }

@@ -49,7 +49,7 @@ struct IslandReport {
   double residual = 0.0;         ///< largest change of speed that is left [m/s]
   std::uint32_t rod = 0;         ///< whose residual that is
   std::uint32_t node = 0;        ///< counted from the rod's first one
-  std::uint32_t impacts = 0;     ///< contacts that shared in an impact
+  std::uint32_t impacts = 0;     ///< contacts that shared in an impact, or in what it left
 };
 
 /// The result of a step.
@@ -59,7 +59,7 @@ struct StepReport {
   IslandReport worst;              ///< the island with the largest residual
   std::uint32_t coupled_rods = 0;  ///< that were solved together with others
 
-  std::uint32_t impacts = 0;  ///< contacts that shared in an impact
+  std::uint32_t impacts = 0;  ///< contacts that shared in an impact, or in what it left
 
   /// Whether a step of BDF2 was one of implicit Euler, because a contact began in it or in the one
   /// before.

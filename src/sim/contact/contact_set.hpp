@@ -85,10 +85,12 @@ class ContactSet {
   void add_anchors(const Rods& rods, FrictionAnchors& anchors) const;
 
   /// Finds the impacts of the step where it ends: if contacts press there that were not near when
-  /// it began, and whose sides approached each other then faster than Impact::min_speed, those and
-  /// all others that press.
-  /// @param rods with the velocities with which the step began
-  std::vector<Impact> find_impacts(const Rods& rods) const;
+  /// it began, and whose sides approached each other then faster than Impact::min_speed, or that
+  /// are of a rod which may return something, those and all others that press.
+  /// @param rods         with the velocities with which the step began
+  /// @param is_returning by rod: whether the step before was of an impact of its, or took something
+  ///                     back after one
+  std::vector<Impact> find_impacts(const Rods& rods, const std::vector<bool>& is_returning) const;
 
   /// Keeps impacts, for add_forces(): their impulses are forces over the step.
   void add_impacts(const std::vector<Impact>& impacts) {

@@ -186,17 +186,22 @@ double ContactSet::restitution_of(std::size_t contact) const {
                                             : pairs[contact - obstacle_contacts.size()].restitution;
 }
 
-std::vector<Impact> ContactSet::find_impacts(const Rods& rods) const {
+std::vector<Impact> ContactSet::find_impacts(const Rods& rods,
+                                             const std::vector<bool>& is_returning) const {
   std::vector<Impact> found;
-  // In most steps no contact begins, and none need be looked at more closely.
-  bool has_any_begun = false;
-  for (std::size_t i = 0; i < distance_count(); ++i) {
-    has_any_begun |= !was_near_[i] && energies_[i] > 0.0;
+  const auto may_return = [&](std::size_t contact) {
+    const auto [a, b] = rods_of(contact);
+    return was_near_[contact] && (is_returning[a] || is_returning[b]);
+  };
+  // In most steps no contact begins or returns anything, and none need be looked at more closely.
+  bool is_any_of_impact = false;
+  for (std::size_t i = 0; i < distance_count() && !is_any_of_impact; ++i) {
+    is_any_of_impact = energies_[i] > 0.0 && (!was_near_[i] || may_return(i));
   }
-  if (!has_any_begun) {
+  if (!is_any_of_impact) {
     return found;
   }
-  has_any_begun = false;
+  is_any_of_impact = false;
   DistanceTerms buffer;
   for (std::size_t i = 0; i < distance_count(); ++i) {
     if (energies_[i] == 0.0) {
@@ -209,13 +214,20 @@ std::vector<Impact> ContactSet::find_impacts(const Rods& rods) const {
       const Vector3d of_obstacle = obstacle_velocity(rods, points);
       const double approach =
           (of_obstacle - difference_of_points(rods.velocities, points)).dot(term.normal);
-      const bool has_begun = !was_near_[i] && approach > Impact::min_speed;
-      has_any_begun |= has_begun;
-      found.push_back({points, term.normal, surface_levers(rods, points, term.normal), has_begun,
-                       has_begun ? restitution_of(i) * approach : 0.0, of_obstacle});
+      Impact impact{points, term.normal, surface_levers(rods, points, term.normal)};
+      impact.obstacle_velocity = of_obstacle;
+      impact.has_begun = !was_near_[i] && approach > Impact::min_speed;
+      if (impact.has_begun) {
+        impact.separation = restitution_of(i) * approach;
+      } else if (may_return(i)) {
+        impact.returnable = step_ * std::max(0.0, -term.slope);
+        impact.max_separation = std::max(0.0, -approach);
+      }
+      is_any_of_impact |= impact.has_begun || impact.returnable > 0.0;
+      found.push_back(impact);
     });
   }
-  return has_any_begun ? found : std::vector<Impact>{};
+  return is_any_of_impact ? found : std::vector<Impact>{};
 }
 
 void ContactSet::bound_step(const Rods& rods, const std::vector<Vector3d>& displacements,

@@ -108,20 +108,35 @@ Vector3d slip_velocity(const Impact& impact, const Rods& rods) {
   return velocity - impact.normal * impact.normal.dot(velocity);
 }
 
+/// The speed with which the sides part [m/s].
+double speed_along(const Impact& impact, const Rods& rods) {
+  return (difference_of_points(rods.velocities, impact.points) - impact.obstacle_velocity)
+      .dot(impact.normal);
+}
+
+/// The impulse of friction that goes with a normal impulse which is taken back. What hardly slides
+/// has had less friction than the cone allows.
+Vector3d returned_friction(const Vector3d& slip, double max_friction) {
+  return max_friction / std::max(slip.norm(), Impact::min_speed) * slip;
+}
+
 }  // namespace
+
+bool is_returning(const Impact& impact, const Rods& rods) {
+  return impact.returnable > 0.0 &&
+         speed_along(impact, rods) > impact.max_separation + Impact::min_returned_speed;
+}
 
 void resolve(Rods& rods, double coefficient, std::vector<Impact>& impacts) {
   constexpr int max_iterations = 200;
   constexpr double max_change = 1e-6;  // of the largest impulse
-  const auto speed_along = [&rods](const Impact& impact) {
-    return (difference_of_points(rods.velocities, impact.points) - impact.obstacle_velocity)
-        .dot(impact.normal);
-  };
   std::vector<Mobilities> by_impact;
+  std::vector<Vector3d> slips;  // that friction in the step has left
   for (Impact& impact : impacts) {
     by_impact.push_back(mobilities(impact, rods));
+    slips.push_back(slip_velocity(impact, rods));
     if (!impact.has_begun) {
-      impact.separation = std::min(0.0, speed_along(impact));
+      impact.separation = std::min(0.0, speed_along(impact, rods));
     }
   }
   double change = 1.0;
@@ -137,13 +152,18 @@ void resolve(Rods& rods, double coefficient, std::vector<Impact>& impacts) {
           push_side(side_b(impact), -impulse, rods);
         }
       };
-      const double speed = speed_along(impact);
-      const double pressure =
-          std::max(0.0, impact.pressure + (impact.separation - speed) / sides.along);
+      const double speed = speed_along(impact, rods);
+      const double parting = impact.pressure + (impact.separation - speed) / sides.along;
+      const double kept = impact.pressure + (impact.max_separation - speed) / sides.along;
+      const double pressure = std::max(-impact.returnable, std::clamp(0.0, parting, kept));
       on_both(push, (pressure - impact.pressure) * impact.normal);
+      const double max_friction = coefficient * std::abs(pressure);
       Vector3d friction = impact.friction - slip_velocity(impact, rods) / sides.across;
-      const double max_friction = coefficient * pressure;
-      friction *= friction.norm() > max_friction ? max_friction / friction.norm() : 1.0;
+      if (pressure < 0.0) {
+        friction = returned_friction(slips[index], max_friction);
+      } else if (friction.norm() > max_friction) {
+        friction *= max_friction / friction.norm();
+      }
       on_both(push_across, friction - impact.friction);
       change = std::max(
           {change, std::abs(pressure - impact.pressure), (friction - impact.friction).norm()});

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -22,9 +23,17 @@ namespace fiber {
 /// that the first minimum ends with, and Coulomb's friction by the force in that. So every contact
 /// has its impact once, however it is resolved in time (Moreau 1988; Glocker 2001). It is one of
 /// nodes: what lies behind them comes with the forces in the rod, in the steps after.
+///
+/// The first minimum leaves the barrier pressed together. What it gives back of that in the steps
+/// after is no velocity: as long as a contact of the impact presses, and parts faster than when the
+/// step began, its impulse of the step is taken back as far as it has made it so. It never pulls:
+/// of all that a contact does in a step, something that pushes is left, or nothing.
 struct Impact {
   /// Sides that approach each other more slowly come to rest [m/s].
   static constexpr double min_speed = 0.05;
+
+  /// What a contact gives back is taken back if it is faster [m/s].
+  static constexpr double min_returned_speed = 0.002;
 
   ContactPoints points;
   Eigen::Vector3d normal;               ///< unit vector from b to a
@@ -32,18 +41,28 @@ struct Impact {
 
   /// Whether the contact began in this step. One that did not gets nothing back: its sides must
   /// only not approach each other faster.
-  bool has_begun;
+  bool has_begun = false;
 
-  double separation;  ///< speed with which the sides part at least; set if it has begun [m/s]
+  double separation = 0.0;  ///< speed with which the sides part at least; set if it has begun [m/s]
+
+  /// Impulse that the contact has given its sides in this step and that may be taken back [N s].
+  double returnable = 0.0;
+  /// Speed down to which that may be [m/s].
+  double max_separation = std::numeric_limits<double>::infinity();
+
   Eigen::Vector3d obstacle_velocity = Eigen::Vector3d::Zero();  ///< of b, if that moves [m/s]
 
-  double pressure = 0.0;                               ///< impulse along the normal [N s] >= 0
+  double pressure = 0.0;  ///< impulse along the normal [N s]; below 0: of what it has given
   Eigen::Vector3d friction = Eigen::Vector3d::Zero();  ///< impulse on a across it [N s]
 };
 
+/// Whether a contact returns what an impact has left in it: there is something to take back.
+bool is_returning(const Impact& impact, const Rods& rods);
+
 /// Finds the impulses of impacts by projected Gauss-Seidel, and changes velocities and spins by
 /// them: contact by contact the impulse with which it parts as it should, never pulling, and the
-/// friction that stops it from sliding, within its cone. Equal and opposite impulses at one point
+/// friction that stops it from sliding, within its cone; with what is taken back of the normal
+/// impulse of the step goes the friction by it. Equal and opposite impulses at one point
 /// keep momentum and angular momentum, however many iterations there are.
 /// @param coefficient of friction
 void resolve(Rods& rods, double coefficient, std::vector<Impact>& impacts);

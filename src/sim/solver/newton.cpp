@@ -111,12 +111,17 @@ std::optional<double> NewtonSolver::solve(Rods& rods, const Problem& problem) {
     }
   }
   const std::vector<Impact> impacts =
-      problem.contacts != nullptr ? problem.contacts->find_impacts(rods) : std::vector<Impact>{};
-  has_impacts_ = !impacts.empty();
+      problem.contacts != nullptr ? problem.contacts->find_impacts(rods, problem.is_returning)
+                                  : std::vector<Impact>{};
+  has_impacts_.assign(states_.size(), false);
+  for (const Impact& impact : impacts) {
+    const std::uint32_t island = scratch_->islands[impact.points.rod_a];
+    has_impacts_[island] = has_impacts_[island] || impact.has_begun;
+  }
   // An impact gives back no more than what the first minimum has taken.
   find_stored_energies(problem, stored_);
   double work = obstacle_work(rods, problem);  // which may be given back as well
-  if (has_impacts_) {
+  if (!impacts.empty()) {
     const std::vector<double> kinetic = kinetic_energies(rods);
     for (std::size_t i = 0; i < kinetic.size(); ++i) {
       max_kinetic_[i] += kinetic[i] - stored_[i];
@@ -127,7 +132,7 @@ std::optional<double> NewtonSolver::solve(Rods& rods, const Problem& problem) {
       !bound_.is_within(rods, members_)) {
     return std::nullopt;
   }
-  if (has_impacts_ && problem.has_start_rates) {
+  if (!impacts.empty() && problem.has_start_rates) {
     work += resolve_impacts(rods, problem, impacts);
   }
   return std::accumulate(stored_.begin(), stored_.end(), 0.0) - stored_before - work;

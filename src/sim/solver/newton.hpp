@@ -41,11 +41,12 @@ class NewtonSolver {
   struct Problem {
     const Effects& effects;
     const StepperOptions& options;
-    double step;                      ///< [s]
-    ContactSet* contacts;             ///< null for none
-    const TravelBound* travel_bound;  ///< null: rods may go anywhere
-    const Friction* friction;         ///< null for none
-    FrictionOrigins origins;          ///< where the slips of friction are measured from
+    double step;                            ///< [s]
+    ContactSet* contacts;                   ///< null for none
+    const TravelBound* travel_bound;        ///< null: rods may go anywhere
+    const Friction* friction;               ///< null for none
+    FrictionOrigins origins;                ///< where the slips of friction are measured from
+    const std::vector<bool>& is_returning;  ///< by rod, see ContactSet::find_impacts()
     bool has_start_rates;  ///< measured from the start: only such a step resolves its impacts
     bool has_moving_obstacles = false;                           ///< in the scene
     const JointParts* joints = nullptr;                          ///< null for none
@@ -74,8 +75,8 @@ class NewtonSolver {
   const std::vector<IslandReport>& reports() const { return reports_; }
   const StepBound& step_bound() const { return bound_; }
 
-  /// Whether the last solve found impacts.
-  bool has_impacts() const { return has_impacts_; }
+  /// By island: whether the last solve found impacts, or took something back after one.
+  const std::vector<bool>& has_impacts() const { return has_impacts_; }
 
   /// Of a solve that gave no result: the obstacles that have stayed behind as rods could not give
   /// way, by index, and the part of their way that they came. Empty where that was not the reason.
@@ -148,7 +149,7 @@ class NewtonSolver {
   std::vector<IslandReport> reports_;  // by island
   std::vector<EnergySum> energies_;    // by island, where its rods are
   std::vector<double> decreases_;      // by island
-  bool has_impacts_ = false;
+  std::vector<bool> has_impacts_;      // by island
   std::vector<std::uint32_t> stuck_objects_;
   double stuck_progress_ = 1.0;
   std::vector<double> drives_;                             // of obstacles, by island [J]

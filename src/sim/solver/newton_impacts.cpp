@@ -184,7 +184,7 @@ std::vector<double> NewtonSolver::kinetic_energies(const Rods& rods) const {
 }
 
 /// Changes velocities and spins by the impacts of each island, which give back no more energy than
-/// the solve has taken.
+/// the solve has taken, and takes back what contacts return of impacts before.
 /// @returns the work of moving obstacles by them [J]
 double NewtonSolver::resolve_impacts(Rods& rods, const Problem& problem,
                                      const std::vector<Impact>& impacts) {
@@ -196,7 +196,11 @@ double NewtonSolver::resolve_impacts(Rods& rods, const Problem& problem,
     std::copy_if(
         impacts.begin(), impacts.end(), std::back_inserter(own),
         [&](const Impact& impact) { return scratch_->islands[impact.points.rod_a] == island; });
-    if (std::none_of(own.begin(), own.end(), [](const auto& impact) { return impact.has_begun; })) {
+    has_impacts_[island] =
+        has_impacts_[island] || std::any_of(own.begin(), own.end(), [&](const Impact& impact) {
+          return is_returning(impact, rods);
+        });
+    if (!has_impacts_[island]) {
       continue;
     }
     const std::vector<StruckNode> before = struck_nodes(rods, own, problem.joints);

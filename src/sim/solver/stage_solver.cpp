@@ -38,6 +38,7 @@ StageSolver::StageSolver(const Rods& rods, const StepperOptions& options, Contac
   }
   scratch_.resize(rods);
   group_of_.resize(rods.count());
+  is_returning_.resize(rods.count());
   for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
     travel_bound_.by_rod.push_back(StepBound::min_travel * rods.radii[rod]);
   }
@@ -244,7 +245,7 @@ void StageSolver::solve_group(Rods& rods, const Effects& effects, double step, G
   const Friction* const friction = bounds ? contacts_->friction() : nullptr;
   const std::optional<double> gain = solver->solve(
       rods, {effects, options_, step, bounds ? &group.contacts : nullptr, travel_bound, friction,
-             origins_, has_start_rates_, bounds && contacts_->motions() != nullptr,
+             origins_, is_returning_, has_start_rates_, bounds && contacts_->motions() != nullptr,
              group.joints.empty() ? nullptr : &joints_->parts(), &group.joints});
   group.is_solved = gain.has_value();
   group.stored_gain = gain.value_or(0.0);
@@ -281,17 +282,24 @@ void StageSolver::copy_state(const RodState& state, const Group& group, Rods& ro
   }
 }
 
-void StageSolver::keep_anchors(const Rods& rods) {
+void StageSolver::end_step(const Rods& rods) {
   anchors_.clear();
   for (const Group& group : groups_) {
     group.contacts.add_anchors(rods, anchors_);
+    for (const std::vector<std::uint32_t>& pack : group.packs) {
+      for (const std::uint32_t rod : pack) {
+        is_returning_[rod] = group.has_impacts[scratch_.islands[rod]];
+      }
+    }
   }
   anchors_.sort(rods.positions.size());
 }
 
 bool StageSolver::has_impacts() const {
-  return std::any_of(groups_.begin(), groups_.end(),
-                     [](const Group& group) { return group.has_impacts; });
+  return std::any_of(groups_.begin(), groups_.end(), [](const Group& group) {
+    return std::find(group.has_impacts.begin(), group.has_impacts.end(), true) !=
+           group.has_impacts.end();
+  });
 }
 
 void StageSolver::add_to(StepReport& report) const {

@@ -63,13 +63,14 @@ class StageSolver {
   /// @param reference where rates are measured from; null for where the solve starts
   void solve(Rods& rods, const Effects& effects, const TimeStep& stage, const RodState* reference);
 
-  /// Keeps the slips at which friction ends the step, for the next one: the last solve was its
-  /// last.
-  void keep_anchors(const Rods& rods);
+  /// Keeps the slips at which friction ends the step, and which rods have had impacts, for the next
+  /// one: the last solve was its last.
+  void end_step(const Rods& rods);
 
   /// Takes what another solver of the same rods has come to in its steps.
   void take_state(const StageSolver& other) {
     anchors_ = other.anchors_;
+    is_returning_ = other.is_returning_;
     travel_bound_ = other.travel_bound_;
   }
 
@@ -104,7 +105,7 @@ class StageSolver {
     std::vector<std::pair<std::uint32_t, double>> needed_travel;
     std::vector<std::uint32_t> stuck_objects;
     double stuck_progress = 1.0;
-    bool has_impacts = false;
+    std::vector<bool> has_impacts;  // by island
     bool is_solved = false;
   };
 
@@ -139,9 +140,10 @@ class StageSolver {
   bool is_at_start_ = true;  // whether rods are where the solve starts, and rates are measured from
   RodState start_;
   RodState reference_;
-  FrictionAnchors anchors_;                                       // of the step before
-  FrictionOrigins origins_;                                       // of the solve
-  double last_step_ = 0.0;                                        // [s]
+  FrictionAnchors anchors_;         // of the step before
+  std::vector<bool> is_returning_;  // by rod: it had impacts in the step before
+  FrictionOrigins origins_;         // of the solve
+  double last_step_ = 0.0;          // [s]
   tbb::concurrent_queue<std::unique_ptr<NewtonSolver>> solvers_;  // that are not at work
 };
 
