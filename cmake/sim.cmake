@@ -59,6 +59,7 @@ fiber_proximity_component(sim fiber_proximity_sim)
 
 # The files of scenes: compiled apart, as nothing in them takes time.
 add_library(sim_scene OBJECT
+  src/sim/scene/effect_entries.cpp
   src/sim/scene/effect_keys.cpp
   src/sim/scene/cut_curve.cpp
   src/sim/scene/effects.cpp

@@ -89,6 +89,40 @@ TEST(AnisotropicBend, BendsFarAsARoundRodOfThatStiffness) {
   EXPECT_LE((tip - expected).norm(), 0.005);
 }
 
+/// Let go, it swings to its stiff side as a round rod of that stiffness does, damped as that is.
+TEST(AnisotropicBend, IsDampedAsARoundRodOfThatStiffness) {
+  RodSection round = strip(1.0);
+  round.bending_stiffness *= strip_ratio;
+  const auto tips = [](const RodSection& section, const Vector3d& side, double relaxation_time) {
+    StripScene scene = strip_scene(rod_of(section), side, Vector3d::Zero());
+    const auto damping = std::make_shared<Damping>(relaxation_time);
+    scene.effects.push_back(damping);
+    scene.effects.push_back(std::make_shared<AnisotropicDamping>(damping));
+    for (std::uint32_t i = 1; i <= strip_edges; ++i) {
+      const double along = static_cast<double>(i) / strip_edges;
+      scene.rods.positions[i].z() += 0.1 * along * along;
+    }
+    StepperOptions options = precise();
+    options.integrator = Integrator::BDF2;
+    Stepper stepper(scene.rods, std::move(scene.effects), options);
+    std::vector<double> heights;
+    for (int i = 0; i < 150; ++i) {
+      stepper.step(0.01);
+      heights.push_back(stepper.rods().positions[strip_edges].z());
+    }
+    return heights;
+  };
+  const std::vector<double> expected = tips(round, Vector3d::Zero(), 0.02);
+  const std::vector<double> undamped = tips(round, Vector3d::Zero(), 0.0);
+  const std::vector<double> found = tips(strip(strip_ratio), Vector3d::UnitZ(), 0.02);
+  double largest = 0.0;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    EXPECT_NEAR(found[i], expected[i], 0.002) << i;
+    largest = std::max(largest, std::abs(expected[i] - undamped[i]));
+  }
+  EXPECT_GT(largest, 0.02) << "damping can be seen";
+}
+
 /// By the integral of the squared lever over each part, with a step inside of an edge.
 TEST(AnisotropicBend, OfPartsGivesWayInSeries) {
   constexpr double force = 1e-3;
@@ -158,14 +192,16 @@ TEST(AnisotropicBend, DerivativesAreThoseOfTheEnergy) {
       rods.natural_curvature_vectors.assign(rods.positions.size(), {1.0, -2.0});
     }
     AnisotropicBend bend;
+    AnisotropicDamping damping(std::make_shared<Damping>(100.0));
     Attachment attachment;
     const Vector3d tangent = (rods.positions[1] - rods.positions[0]).normalized();
     attachment.add(rods, clamp(0, {rods.positions[0], tangent, rods.directors[0]}));
-    for (Effect* const effect : std::initializer_list<Effect*>{&bend, &attachment}) {
+    for (Effect* const effect : std::initializer_list<Effect*>{&bend, &damping, &attachment}) {
       effect->begin_step(rods, {0.0, 1e3});  // so long that the hold is soft
     }
     displace(rods, random, 0.03, 0.5);
-    for (const Effect* const effect : std::initializer_list<Effect*>{&bend, &attachment}) {
+    for (const Effect* const effect :
+         std::initializer_list<Effect*>{&bend, &damping, &attachment}) {
       const Derivatives found = derivatives_of(*effect, rods, 0);
       const Eigen::VectorXd expected = gradient_by_differences(*effect, rods, 0, 1e-6);
       ASSERT_LE((found.gradient - expected).norm(), 1e-5 * (1.0 + expected.norm()))
@@ -174,6 +210,7 @@ TEST(AnisotropicBend, DerivativesAreThoseOfTheEnergy) {
       ASSERT_GE(eigen.eigenvalues().minCoeff(), -1e-9 * found.hessian.norm());
     }
     expect_same_side_by_side(bend, rods);
+    expect_same_side_by_side(damping, rods);
   }
 }
 

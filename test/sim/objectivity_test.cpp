@@ -94,6 +94,11 @@ std::unique_ptr<Effect> bend_with_a_stiff_side(Rods& rods) {
   return std::make_unique<AnisotropicBend>();
 }
 
+std::unique_ptr<Effect> damping_of_a_stiff_side(Rods& rods) {
+  rods.stiff_sides.assign(rods.positions.size(), {3.0, {0.6, 0.8}});
+  return std::make_unique<AnisotropicDamping>(std::make_shared<Damping>(0.1));
+}
+
 class ObjectivityTest : public testing::TestWithParam<ObjectivityCase> {
  protected:
   /// Two earlier states, and the rods in a third one.
@@ -173,7 +178,8 @@ INSTANTIATE_TEST_SUITE_P(
         ObjectivityCase{"bend_with_a_stiff_side", true, bend_with_a_stiff_side},
         ObjectivityCase{"twist", true, [](Rods& rods) { return std::make_unique<Twist>(rods); }},
         ObjectivityCase{"damping", false, maker<Damping>(0.1)},
-        ObjectivityCase{"damping_with_twist", true, maker<Damping>(0.1)}),
+        ObjectivityCase{"damping_with_twist", true, maker<Damping>(0.1)},
+        ObjectivityCase{"damping_of_a_stiff_side", true, damping_of_a_stiff_side}),
     name_of_case);
 
 /// Rods in three states of a rigid motion: in a step between them, nothing is lost.
@@ -200,17 +206,28 @@ TEST(Damping, LosesNothingInRigidMotion) {
     move(1.0 / ratio);
     const RodState second = rods.state();
     const double share = 1.0 / (1.0 + 2.0 * ratio);
+    if (has_twist) {
+      rods.stiff_sides.assign(rods.positions.size(), {3.0, {0.6, 0.8}});
+    }
+    const auto damping = std::make_shared<Damping>(0.1);
     Damping of_bdf2(0.1);
-    of_bdf2.begin_step(
-        rods,
-        {0.0,
-         0.01 * share * (1.0 + ratio),
-         {{{&second, (1.0 + ratio) * (1.0 + ratio) * share}, {&first, -ratio * ratio * share}}}});
+    AnisotropicDamping to_side_of_bdf2(damping);
+    for (Effect* const effect : std::initializer_list<Effect*>{&of_bdf2, &to_side_of_bdf2}) {
+      effect->begin_step(
+          rods,
+          {0.0,
+           0.01 * share * (1.0 + ratio),
+           {{{&second, (1.0 + ratio) * (1.0 + ratio) * share}, {&first, -ratio * ratio * share}}}});
+    }
     Damping of_euler(0.1);
+    AnisotropicDamping to_side_of_euler(damping);
     of_euler.begin_step(rods, {0.0, 0.01});
+    to_side_of_euler.begin_step(rods, {0.0, 0.01});
     move(1.0);
-    EXPECT_LE(energy_of(of_bdf2, rods), 1e-20) << "round " << round;
-    EXPECT_LE(energy_of(of_euler, rods), 1e-20) << "round " << round;
+    for (const Effect* const effect : std::initializer_list<const Effect*>{
+             &of_bdf2, &of_euler, &to_side_of_bdf2, &to_side_of_euler}) {
+      EXPECT_LE(energy_of(*effect, rods), 1e-20) << "round " << round;
+    }
   }
 }
 

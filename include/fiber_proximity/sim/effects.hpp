@@ -105,26 +105,33 @@ class Bend : public LaneEffect {
   std::vector<Eigen::Vector2d> natural_curvatures_;  // with a direction [1/m]
 };
 
-/// What rods resist to bending towards Rods::stiff_sides beyond the resistance of Bend, which is to
-/// be there, too: ½ k (ρ − ρ₀)² at each inner node, ρ = ½ (b·m − a·n) with the tangents a and b of
-/// its edges and the directions m and n across them, towards the side, that their cross-sections
-/// carry along. As Bergou et al. (2008, Sect. 4.2) do with their material curvatures it averages
-/// over both cross-sections. In the plane of a bend by the angle φ towards the side ρ is sin φ. ρ₀
-/// is that of natural curvature.
-class AnisotropicBend : public Effect {
+/// An energy of how far rods are bent towards Rods::stiff_sides: ½ k (ρ − ρ₀)² at each inner node,
+/// ρ = ½ (b·m − a·n) with the tangents a and b of its edges and the directions m and n across them,
+/// towards the side, that their cross-sections carry along. As Bergou et al. (2008, Sect. 4.2) do
+/// with their material curvatures it averages over both cross-sections. In the plane of a bend by
+/// the angle φ towards the side ρ is sin φ; no rigid motion changes it.
+class BendToSide : public Effect {
  public:
-  void begin_step(Rods& rods, const TimeStep& step) override;
   NodeData per_node_data() const override;
   void energy(const RodPack& rods, const NodeValues& values, SimdBatch& energy) const override;
   void add_derivatives(const RodPack& rods, const NodeValues& values,
                        PackSystem& system) const override;
   void add_forces(const RodPack& rods, const NodeValues& values, RodForces& forces) const override;
 
+ protected:
+  /// By node: k, the side, ρ₀. Of this step.
+  std::vector<std::array<double, 4>> values_;
+
  private:
   template <class Visit>
   void for_each_bend(const RodPack& rods, const NodeValues& values, const Visit& visit) const;
+};
 
-  std::vector<std::array<double, 4>> values_;  // by node: k, the side, ρ₀
+/// What rods resist to bending towards Rods::stiff_sides beyond the resistance of Bend, which is to
+/// be there, too. ρ₀ is that of natural curvature.
+class AnisotropicBend : public BendToSide {
+ public:
+  void begin_step(Rods& rods, const TimeStep& step) override;
 };
 
 /// Rods that stay bent: where the curvature differs from the natural one by more than the yield
@@ -218,6 +225,21 @@ class Damping : public LaneEffect {
   // which the directors have.
   std::vector<double> earlier_;
   std::uint32_t per_node_ = 0;
+};
+
+/// Internal friction of what AnisotropicBend resists, beside Damping for the rest: the rate of ρ,
+/// from the ρ₀ that the earlier states of the step have.
+class AnisotropicDamping : public BendToSide {
+ public:
+  /// @param damping whose relaxation time it has; asked in each step, so that it may change
+  explicit AnisotropicDamping(std::shared_ptr<const Damping> damping)
+      : damping_(std::move(damping)) {}
+
+  void begin_step(Rods& rods, const TimeStep& step) override;
+  bool is_stored() const override { return false; }
+
+ private:
+  std::shared_ptr<const Damping> damping_;
 };
 
 /// A uniform acceleration.

@@ -46,6 +46,14 @@ inline CrossSection cross_section(const Rods& rods, std::uint32_t edge) {
   return {edge_direction(rods, edge).tangent, current_director(rods, edge), rods.angles[edge]};
 }
 
+/// That of a state.
+/// @param rods their directors and tangents are those with which the step began
+inline CrossSection cross_section(const Rods& rods, const RodState& state, std::uint32_t edge) {
+  const Eigen::Vector3d tangent = edge_direction(state, edge).tangent;
+  return {tangent, transport(rods.directors[edge], rods.start_tangents[edge], tangent),
+          state.angles[edge]};
+}
+
 inline Eigen::Vector2d by_material(const CrossSection& section, const Eigen::Vector3d& v) {
   return {section.first.dot(v), section.second.dot(v)};
 }

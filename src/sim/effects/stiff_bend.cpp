@@ -25,8 +25,14 @@ StiffBend::StiffBend(const PackLane& rod, std::uint32_t node, const StiffSide& s
     : rod_(rod), node_(node), stiffness_(side.stiffness) {
   const Vector3d side_before = towards(before, side);
   const Vector3d side_after = towards(after, side);
-  residual_ = 0.5 * (after.tangent.dot(side_before) - before.tangent.dot(side_after)) - rest;
+  residual_ = strain(side, before, after) - rest;
   by_rotation_ = 0.5 * (side_before.cross(after.tangent) + side_after.cross(before.tangent));
+}
+
+double StiffBend::strain(const StiffSide& side, const CrossSection& before,
+                         const CrossSection& after) {
+  return 0.5 *
+         (after.tangent.dot(towards(before, side)) - before.tangent.dot(towards(after, side)));
 }
 
 double StiffBend::rest(const StiffSide& side, const Vector2d& curvature, double length) {
@@ -99,15 +105,33 @@ void AnisotropicBend::begin_step(Rods& rods, const TimeStep& /*step*/) {
   }
 }
 
-NodeData AnisotropicBend::per_node_data() const {
+void AnisotropicDamping::begin_step(Rods& rods, const TimeStep& step) {
+  const double share = damping_->relaxation_time() / step.length;
+  values_.assign(rods.stiff_sides.size(), {});
+  for (std::uint32_t rod = 0; rod < rods.count() && !values_.empty(); ++rod) {
+    for (std::uint32_t i = rods.first(rod) + 1; i + 1 < rods.end(rod); ++i) {
+      const StiffSide& side = rods.stiff_sides[i];
+      double earlier = 0.0;
+      if (side.stiffness > 0.0) {
+        step.for_each_earlier(rods, [&](const RodState& state, double weight) {
+          earlier += weight * StiffBend::strain(side, cross_section(rods, state, i - 1),
+                                                cross_section(rods, state, i));
+        });
+      }
+      values_[i] = {share * side.stiffness, side.side.x(), side.side.y(), earlier};
+    }
+  }
+}
+
+NodeData BendToSide::per_node_data() const {
   return {values_.empty() ? nullptr : values_.front().data(), values_.empty() ? 0U : 4U};
 }
 
 /// Such rods are rare, so that they are visited one after the other.
 /// @param visit takes lane, node and bend
 template <class Visit>
-void AnisotropicBend::for_each_bend(const RodPack& rods, const NodeValues& values,
-                                    const Visit& visit) const {
+void BendToSide::for_each_bend(const RodPack& rods, const NodeValues& values,
+                               const Visit& visit) const {
   for (std::size_t lane = 0; lane < rods.used && !values_.empty(); ++lane) {
     for (std::uint32_t node = 1; node + 1 < rods.node_count; ++node) {
       const SimdBatch* const of_node = values.data() + std::size_t{4} * node;
@@ -119,24 +143,23 @@ void AnisotropicBend::for_each_bend(const RodPack& rods, const NodeValues& value
   }
 }
 
-void AnisotropicBend::energy(const RodPack& rods, const NodeValues& values,
-                             SimdBatch& energy) const {
+void BendToSide::energy(const RodPack& rods, const NodeValues& values, SimdBatch& energy) const {
   energy = SimdBatch{};
   for_each_bend(rods, values, [&](std::size_t lane, std::uint32_t /*node*/, const StiffBend& bend) {
     energy[lane] += bend.energy();
   });
 }
 
-void AnisotropicBend::add_derivatives(const RodPack& rods, const NodeValues& values,
-                                      PackSystem& system) const {
+void BendToSide::add_derivatives(const RodPack& rods, const NodeValues& values,
+                                 PackSystem& system) const {
   for_each_bend(rods, values, [&](std::size_t lane, std::uint32_t /*node*/, const StiffBend& bend) {
     RodSystem rod_system(system, lane);
     bend.add_derivatives(rod_system);
   });
 }
 
-void AnisotropicBend::add_forces(const RodPack& rods, const NodeValues& values,
-                                 RodForces& forces) const {
+void BendToSide::add_forces(const RodPack& rods, const NodeValues& values,
+                            RodForces& forces) const {
   for_each_bend(rods, values, [&](std::size_t lane, std::uint32_t node, const StiffBend& bend) {
     forces.bending_moments[rods.first_nodes[lane] + node] += bend.moment();
   });

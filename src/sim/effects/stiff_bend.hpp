@@ -8,6 +8,10 @@ namespace fiber {
 /// it: ½ k (ρ − ρ₀)², see AnisotropicBend.
 class StiffBend {
  public:
+  /// ρ between two cross-sections.
+  static double strain(const StiffSide& side, const CrossSection& before,
+                       const CrossSection& after);
+
   /// ρ₀ of natural curvature over a length [m].
   /// @param curvature along the material directions [1/m]
   static double rest(const StiffSide& side, const Eigen::Vector2d& curvature, double length);

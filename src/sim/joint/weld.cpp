@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "src/sim/edges.hpp"
+#include "src/sim/effects/cross_section.hpp"
 
 namespace fiber {
 
@@ -17,23 +17,10 @@ namespace {
 /// Below this, a fold has no side, as for bending inside of a rod.
 constexpr double folded = 1e-3;
 
-Matrix3d cross_product_by(const Vector3d& v) {
-  Matrix3d matrix;
-  matrix << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
-  return matrix;
-}
-
 /// Turns a vector about a unit vector across it.
 Vector3d turned_about(const Vector3d& axis, const Vector3d& v, double angle) {
   const CosineSine turn = cosine_and_sine(angle);
   return turn.cosine * v + turn.sine * axis.cross(v);
-}
-
-/// The first material direction of an edge's cross-section.
-Vector3d material_direction(const Rods& rods, const RodState& state, std::uint32_t edge,
-                            const Vector3d& tangent) {
-  return turned_about(tangent, transport(rods.directors[edge], rods.start_tangents[edge], tangent),
-                      state.angles[edge]);
 }
 
 }  // namespace
@@ -65,13 +52,13 @@ WeldStrain::Section WeldStrain::section(const Rods& rods, const RodState& state,
     section.by_unknowns << -across, across, Vector3d::Zero();
     return section;
   }
-  section.first = material_direction(rods, state, edge, tangent);
+  section.first = cross_section(rods, state, edge).first;
   if (which == 1) {
     section.first = turned_about(section.tangent, section.first, -weld_.untwisted);
   }
   section.second = section.tangent.cross(section.first);
   const Matrix3d by_second =
-      cross_product_by(tangent) / direction.length +
+      cross_matrix(tangent) / direction.length +
       tangent * director_turn(rods.start_tangents[edge], direction).transpose();
   section.by_unknowns << -by_second, tangent, by_second;
   return section;
@@ -165,7 +152,7 @@ WeldStrain::Derivatives WeldStrain::derivatives() const {
     for (std::size_t i = 0; i < 2; ++i) {
       const double sign = i == 0 ? 1.0 : -1.0;
       found.rows[i].topRows<3>() =
-          sign * bending * cross_product_by(levers_[i]) * sections_[i].by_unknowns;
+          sign * bending * cross_matrix(levers_[i]) * sections_[i].by_unknowns;
       found.rows[i].row(3) =
           -sign * twisting * by_rotation_[2].transpose() * sections_[i].by_unknowns;
     }
@@ -220,8 +207,7 @@ Weld make_weld(const Rods& rods, const std::array<WeldedEdge, 2>& edges, WeldPat
     return weld;
   }
   const auto direction = [&](std::size_t i) {
-    const std::uint32_t edge = weld.edges[i].edge;
-    return material_direction(rods, rods, edge, edge_direction(rods, edge).tangent);
+    return cross_section(rods, rods, weld.edges[i].edge).first;
   };
   const Vector3d first = direction(0);
   if (across.norm() > 0.0) {

@@ -105,6 +105,14 @@ void read_loads(const YamlField& list, SimDescription& scene);
 /// @throws std::invalid_argument naming file and line, for a load that Loads::add() refuses
 std::shared_ptr<Loads> make_loads(const SimDescription& description, Rods& rods, SimScene& scene);
 
+inline double number_of(const EffectOptions& options, const char* name) {
+  return options.at(name).front();
+}
+
+inline Eigen::Vector3d vector_of(const EffectOptions& options, const char* name) {
+  return Eigen::Vector3d(options.at(name).data());
+}
+
 /// The options of effects that are lists and are about fibres, which have to be cut first.
 struct EffectLists {
   std::optional<YamlField> holds;  ///< of the effect attachment; none if there is none

@@ -96,6 +96,29 @@ TEST_F(SimSceneTest, FlatCablesBendToOneSideLessThanToAnother) {
   EXPECT_TRUE(read(scene_text(line, "[stretch, bend, twist]")).stepper->rods().stiff_sides.empty());
 }
 
+/// To its stiff side a flat cable swings as a round one of that stiffness, damped as that is.
+TEST_F(SimSceneTest, FlatCablesAreDampedByBothStiffnesses) {
+  const auto tip = [this](const std::string& material, const std::string& keys,
+                          const std::string& damping) {
+    SimScene scene = read(of_material(
+        material, keys,
+        "[stretch, bend, twist, {damping: {relaxation_time: " + damping +
+            "}}, {attachment: [{fiber: cable, node: first, kind: clamp, tangent: [1, 0, 0]}]}, "
+            "{load: [{fiber: cable, node: last, force: [0, 0, 0.01]}]}]"));
+    for (int i = 0; i < 5; ++i) {
+      scene.advance();
+    }
+    return scene.stepper->rods().positions.back().z();
+  };
+  const std::string stiff = "{preset: rope, bending_share: 0.5}";
+  const double round = tip(stiff, "", "0.5");
+  const double undamped = tip(stiff, "", "0");
+  const double flat = tip("{preset: rope, bending_share: 0.1, bending_ratio: 5}",
+                          "stiff_towards: [0, 0, 1]", "0.5");
+  EXPECT_GT(std::abs(undamped - round), 0.1 * undamped);
+  EXPECT_NEAR(flat, round, 0.02 * std::abs(undamped - round));
+}
+
 TEST_F(SimSceneTest, StiffSidesThatCannotBeAreErrors) {
   const std::string flat = "{preset: rope, bending_ratio: 5}";
   EXPECT_EQ(error(of_material(flat, "", "[stretch, bend, twist]")),
