@@ -43,6 +43,7 @@ add_message_files(FILES
   HoldTrajectory.msg
   InputStatistics.msg
   JointForce.msg
+  LoadForce.msg
   Obstacle.msg
   ObstacleArray.msg
   PredictedContact.msg

@@ -20,6 +20,8 @@ using fiber_proximity_ros::to_vector;
 /// [N] of each rod: half a metre of silicone tube of 5 mm radius, 1150 kg/m3.
 const double weight = 9.81 * 1150.0 * M_PI * 0.005 * 0.005 * 0.5;
 
+const double load = 0.05;  // [N] on 10 cm in the middle of the one that lies
+
 class SimForcesTest : public CableSimTest {
  protected:
   /// The gripper is turned by a quarter about x: its y is the world's z.
@@ -104,8 +106,24 @@ TEST_F(SimForcesTest, ContactsCarryWhatLies) {
     EXPECT_NE(contact.fiber, 0U) << "it hangs";
     (contact.fiber == 1 ? on_lying : on_heavy) += force;
   }
-  is_near(on_lying, {0, 0, weight}, 2e-3 * weight);
+  is_near(on_lying, {0, 0, weight + load}, 2e-3 * weight);
   is_near(on_heavy, {0, 0, weight}, 2e-3 * weight);
+}
+
+TEST_F(SimForcesTest, LoadsActWhereTheSceneSays) {
+  Vector3d sum = Vector3d::Zero();
+  Vector3d moment = Vector3d::Zero();  // about the middle of the rod
+  for (const fiber_proximity::LoadForce& each : last().loads) {
+    EXPECT_EQ(each.load, 0U);
+    EXPECT_EQ(each.fiber, 1U);
+    EXPECT_TRUE(4 <= each.node && each.node <= 6) << each.node;
+    EXPECT_NEAR(each.point.y, -0.25 + 0.05 * each.node, 1e-4);
+    const Vector3d force = to_vector(each.force);
+    sum += force;
+    moment += (to_vector(each.point) - Vector3d(0.3, 0.0, 0.0)).cross(force);
+  }
+  is_near(sum, {0, 0, -load}, 1e-9);
+  EXPECT_NEAR(moment.x(), 0.0, 1e-5);
 }
 
 TEST_F(SimForcesTest, AHoldThatIsTooWeakLagsAndSaysSo) {

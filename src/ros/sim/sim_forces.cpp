@@ -129,6 +129,16 @@ void fill_in(const fiber::SimScene& scene, const fiber::RodForces& forces,
     joint.force = to_vector_message(force.force);
     joint.moment = to_vector_message(force.moment);
   }
+  message.loads.clear();
+  for (const fiber::RodForces::LoadForce& force : forces.loads) {
+    fiber_proximity::LoadForce& load = message.loads.emplace_back();
+    load.load = force.load;
+    load.fiber = force.rod;
+    load.node = force.node;
+    load.point = to_message(force.point);
+    load.force = to_vector_message(force.force);
+    load.moment = to_vector_message(force.moment);
+  }
   const fiber::IslandReport& worst = scene.stepper->report().worst;
   message.residual = worst.residual;
   message.residual_fiber = worst.rod;
