@@ -35,6 +35,7 @@ add_library(fiber_proximity_sim SHARED
   src/sim/inertia.cpp
   src/sim/rods.cpp
   src/sim/sections.cpp
+  src/sim/solver/joint_rows.cpp
   src/sim/solver/joint_solver.cpp
   src/sim/solver/newton.cpp
   src/sim/solver/pack_kernels.cpp

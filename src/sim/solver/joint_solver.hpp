@@ -14,8 +14,8 @@ namespace fiber {
 
 /// Joints that lead from rod to rod: those of one cluster join no rod with one of another.
 struct JointCluster {
-  std::vector<std::uint32_t> places;  ///< indices of JointParts
-  std::vector<std::uint32_t> welds;
+  std::vector<std::uint32_t> places;              ///< indices of JointParts
+  std::vector<std::vector<std::uint32_t>> welds;  ///< by place that has some
 
   /// One of its rods, whose island all of them are in.
   std::uint32_t rod(const JointParts& parts) const {
@@ -34,8 +34,10 @@ std::vector<JointCluster> joint_clusters(const JointParts& parts, std::uint32_t 
 /// with J p = 0. With G made of J and A it is p = −B⁻¹ (g + Gᵀ y), (D + G B⁻¹ Gᵀ) y = −G B⁻¹ g,
 /// where D is 0 for rows of J and 1 for rows of A (Woodbury's formula, and the Schur complement of
 /// the places' Lagrange multipliers; Nocedal and Wright 2006, Sect. 16.2). The matrix on the left,
-/// one for each cluster, has as few rows as the joints have. So a step is exact, however many
-/// joints there are, and they take neither stiff springs nor iterations.
+/// one for each cluster, has as few rows as the joints have: A is a root of the sum of the Hessians
+/// of a place's welds, with as many rows as that has rank, and not the welds' own rows, of which
+/// there are as many as pairs of edges. So a step is exact, however many joints there are, and they
+/// take neither stiff springs nor iterations.
 class JointSolver {
  public:
   /// The joints of the rods that are solved for, and where these are in the packs.
@@ -79,65 +81,91 @@ class JointSolver {
   const std::vector<NodeForce>& forces() const { return forces_; }
 
  private:
+  /// An unknown of a rod that rows of G are about.
+  struct Unknown {
+    std::uint32_t rod;
+    std::size_t place;  // in all packs
+
+    bool operator<(const Unknown& other) const {
+      return rod < other.rod || (rod == other.rod && place < other.place);
+    }
+    bool operator==(const Unknown& other) const { return place == other.place; }
+  };
+
   /// The part of a row of G in one rod: the derivative by some unknowns that follow each other.
   struct RowPart {
     std::uint32_t row;  // of its cluster
     std::uint32_t rod;
-    std::size_t first;  // place of the first of these unknowns in all packs
-    std::size_t count;  // of these unknowns
-    std::uint32_t end;  // which of the parts that the row has, where several are in the rod
-    std::array<double, 7> values;
+    std::size_t place;        // of the first of these unknowns in all packs
+    std::size_t count;        // of these unknowns
+    std::size_t derivative;   // the first of these, of the cluster's
+    std::size_t unknown = 0;  // the first of these, of the cluster's
+  };
 
-    /// @param begin the place of the first of some values in all packs
-    double product(const double* some, std::size_t begin) const;
-    void add_to(double* some, std::size_t begin, double factor) const;
+  /// The welds of one place: their Hessian by the unknowns of their edges, and its root.
+  struct WeldGroup {
+    std::vector<Unknown> unknowns;
+    Eigen::MatrixXd hessian;
+    Eigen::MatrixXd root;  // the products of its first columns add up to it
+    Eigen::Index rank;
+  };
+
+  /// A rod of a cluster: its parts and its unknowns.
+  struct RodPart {
+    std::uint32_t rod;
+    std::uint32_t cluster;
+    std::size_t first_part;
+    std::size_t end_part;
+    std::size_t first_unknown;
+    std::size_t end_unknown;
+    std::size_t response;  // the first value of its part of responses_
+
+    std::size_t unknown_count() const { return end_unknown - first_unknown; }
   };
 
   /// A cluster in the course of a solve.
   struct ClusterState {
-    std::vector<RowPart> parts;  // by rod, then by row
+    std::vector<Unknown> unknowns;  // by rod
+    std::vector<RowPart> parts;     // by rod, then by row
+    std::vector<double> derivatives;
+    std::vector<WeldGroup> groups;
     Eigen::MatrixXd matrix;
     Eigen::LDLT<Eigen::MatrixXd> factors;
     Eigen::VectorXd values;
+
+    /// @param some values of all packs
+    double product(const RowPart& part, const double* some) const;
+    void add_to(const RowPart& part, double factor, double* some) const;
   };
 
-  /// Parts begin … end - 1 of a cluster: those of one row in one rod.
-  struct Column {
-    std::uint32_t cluster;
-    std::size_t begin;
-    std::size_t end;
-  };
-
-  /// Columns begin … end - 1 of a pack: those of B⁻¹ Gᵀ that a rod has.
-  struct RodColumns {
-    std::uint32_t rod;
-    std::size_t begin;
-    std::size_t end;
-
-    std::size_t count() const { return end - begin; }
-  };
-
-  /// The columns of the rods of a pack.
-  struct PackColumns {
-    std::vector<RodColumns> rods;
-    std::vector<Column> columns;  // by rod
-  };
-
-  std::uint32_t add_place_rows(const Problem& problem, const std::vector<PlacedNode>& place,
-                               std::uint32_t row, ClusterState& state) const;
+  static std::uint32_t add_place_rows(const Problem& problem, const std::vector<PlacedNode>& place,
+                                      std::uint32_t row, ClusterState& state);
+  static void add_welds(const Problem& problem, const Rods& rods,
+                        const std::vector<RodSystem*>& systems,
+                        const std::vector<std::uint32_t>& welds, WeldGroup& group);
+  static std::uint32_t add_weld_rows(const WeldGroup& group, std::uint32_t row,
+                                     ClusterState& state);
+  static void sort_parts(ClusterState& state);
   void unite_gradients(const Problem& problem, const Rods& rods,
                        const std::vector<RodSystem*>& systems);
-  void find_columns(const Problem& problem);
+  void find_rods(const Problem& problem);
+  void add_response(const RodPart& rod);
+  Eigen::Map<Eigen::MatrixXd> response_of(const RodPart& rod) {
+    const auto count = static_cast<Eigen::Index>(rod.unknown_count());
+    return {&responses_[rod.response], count, count};
+  }
   void unite(const Problem& problem, std::vector<SimdBatch>& values) const;
 
   std::vector<EnergySum> energies_;  // by cluster
   std::vector<double> stored_;       // by cluster
   std::vector<NodeForce> forces_;
-  std::vector<double> masses_;          // of joined nodes, as forces_
-  std::vector<ClusterState> states_;    // by cluster
-  std::vector<PackColumns> columns_;    // by pack
-  std::vector<SimdBatch> right_sides_;  // of all packs
-  std::vector<SimdBatch> column_;       // of all packs
+  std::vector<double> masses_;              // of joined nodes, as forces_
+  std::vector<ClusterState> states_;        // by cluster
+  std::vector<std::vector<RodPart>> rods_;  // by pack
+  std::vector<SimdBatch> right_sides_;      // of all packs
+  std::vector<SimdBatch> column_;           // of a pack
+  std::vector<double> responses_;           // of rods' unknowns to forces on them: of B⁻¹
+  std::vector<double> by_row_;              // buffer of add_response()
 };
 
 }  // namespace fiber
