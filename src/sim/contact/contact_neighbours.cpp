@@ -1,6 +1,8 @@
 #include "src/sim/contact/contact_neighbours.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace fiber {
 
@@ -19,12 +21,26 @@ ContactNeighbours::ContactNeighbours(const Rods& rods) : arcs_(contact_arcs(rods
       }
     }
   }
+  to_joint_.assign(rods.positions.size(), std::numeric_limits<double>::infinity());
+  for (const std::vector<std::uint32_t>& members : members_) {
+    for (const std::uint32_t node : members) {
+      const std::uint32_t rod = rods_[node];
+      for (std::uint32_t edge = rods.first(rod); edge + 1 < rods.end(rod); ++edge) {
+        const double between =
+            std::min(std::abs(arcs_[edge] - arcs_[node]), std::abs(arcs_[edge + 1] - arcs_[node]));
+        to_joint_[edge] = std::min(to_joint_[edge], between);
+      }
+    }
+  }
 }
 
 bool ContactNeighbours::are_near_by_joints(const Rods& rods, std::uint32_t rod_a,
                                            std::uint32_t edge_a, std::uint32_t rod_b,
                                            std::uint32_t edge_b) const {
   const double limit = contact_neighbour_length(rods, rod_a, edge_a, rod_b, edge_b);
+  if (to_joint_[edge_a] + to_joint_[edge_b] >= limit) {
+    return false;
+  }
   return is_near(rods, edge_a, limit, rod_b, edge_b, false) ||
          is_near(rods, edge_a + 1, limit, rod_b, edge_b, false);
 }

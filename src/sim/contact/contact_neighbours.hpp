@@ -31,6 +31,8 @@ class ContactNeighbours {
   std::vector<double> arcs_;                         // along each rod at rest, by node [m]
   std::vector<std::uint32_t> rods_;                  // by node, if there are joints
   std::vector<std::vector<std::uint32_t>> members_;  // nodes, by joint
+  std::vector<double>
+      to_joint_;  // by edge: along its rod to the nearest joint, if there are some [m]
 };
 
 }  // namespace fiber
