@@ -79,7 +79,7 @@ std::vector<Vector3d> contact_gradient(const ExtraScene& scene, const Rods& befo
     moved->go_to(0, 1.0);
   }
   found.update_distances(after);
-  found.update_friction(after, together, {true});
+  found.update_friction(after, together, {1.0});
   found.find_derivatives(after);
   FrictionAnchors next;
   found.add_anchors(after, next);

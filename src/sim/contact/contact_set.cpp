@@ -86,7 +86,7 @@ void ContactSet::begin(const Rods& rods, const Friction* friction, const Frictio
   }
   if (friction != nullptr) {
     stick_length_ = friction->stick_length(step);
-    add_friction(rods, [](std::uint32_t /*rod*/) { return true; });
+    add_friction(rods, [](std::uint32_t /*rod*/) { return 1.0; });
   }
 }
 
@@ -109,17 +109,26 @@ void move_reference(const MovedShapes& moved, const Rods& rods, const ContactPoi
 
 }  // namespace
 
-/// Adds the friction by the normal forces at the current distances of the contacts for whose first
-/// rod is_wanted(rod) holds.
-template <class Predicate>
-void ContactSet::add_friction(const Rods& rods, const Predicate& is_wanted) {
+/// Adds the friction by the normal forces at the current distances.
+/// @param share_of of the first rod of a contact: see update_friction()
+template <class ShareOf>
+void ContactSet::add_friction(const Rods& rods, const ShareOf& share_of) {
   by_chunk_.resize(std::max(by_chunk_.size(), chunk_count(distance_count())));
   for_each_chunk(distance_count(), [&](std::size_t index, std::size_t begin, std::size_t end) {
     DistanceTerms buffer;
     by_chunk_[index].clear();
     for (std::size_t i = begin; i < end; ++i) {
-      if (!is_wanted(rods_of(i).first)) {
+      const double share = share_of(rods_of(i).first);
+      if (share == 0.0) {
         continue;
+      }
+      double scale = 1.0;
+      if (share < 1.0) {
+        double now = 0.0;
+        for_each_term(rods, i, buffer, [&](const ContactPoints& /*points*/, const auto& term) {
+          now += friction_->coefficient() * std::max(0.0, term.pressure);
+        });
+        scale = now > 0.0 ? share + (1.0 - share) * max_forces_before_[i] / now : 1.0;
       }
       for_each_term(rods, i, buffer, [&](const ContactPoints& points, const DistanceTerm& term) {
         if (term.pressure > 0.0) {
@@ -129,13 +138,13 @@ void ContactSet::add_friction(const Rods& rods, const Predicate& is_wanted) {
             reference +=
                 lever_motion(*levers, points, origins_.state->positions, origins_.state->angles);
           }
-          const double max_force = friction_->coefficient() * term.pressure;
+          const double max_force = scale * friction_->coefficient() * term.pressure;
           Vector3d slip = origins_.anchors->slip_at(points, term.normal, max_force, stick_length_);
           if (has_motion_) {
             move_reference(*moved_, rods, points, levers, reference, slip);
           }
           reference -= slip;
-          by_chunk_[index].push_back({points, term.normal, max_force, reference, levers});
+          by_chunk_[index].push_back({i, points, term.normal, max_force, reference, levers});
         }
       });
     }
@@ -146,16 +155,22 @@ void ContactSet::add_friction(const Rods& rods, const Predicate& is_wanted) {
 }
 
 void ContactSet::update_friction(const Rods& rods, const std::vector<std::uint32_t>& islands,
-                                 const std::vector<bool>& which) {
-  if (friction_ == nullptr || std::find(which.begin(), which.end(), true) == which.end()) {
+                                 const std::vector<double>& shares) {
+  if (friction_ == nullptr ||
+      std::all_of(shares.begin(), shares.end(), [](double share) { return share == 0.0; })) {
     return;
   }
-  const auto is_wanted = [&](std::uint32_t rod) { return which[islands[rod]]; };
-  frictions_.erase(
-      std::remove_if(frictions_.begin(), frictions_.end(),
-                     [&](const FrictionPoint& point) { return is_wanted(point.points.rod_a); }),
-      frictions_.end());
-  add_friction(rods, is_wanted);
+  const auto share_of = [&](std::uint32_t rod) { return shares[islands[rod]]; };
+  max_forces_before_.assign(distance_count(), 0.0);
+  for (const FrictionPoint& point : frictions_) {
+    max_forces_before_[point.contact] += point.max_force;
+  }
+  frictions_.erase(std::remove_if(frictions_.begin(), frictions_.end(),
+                                  [&](const FrictionPoint& point) {
+                                    return share_of(point.points.rod_a) > 0.0;
+                                  }),
+                   frictions_.end());
+  add_friction(rods, share_of);
   evaluate_energies(rods, distance_count());
 }
 

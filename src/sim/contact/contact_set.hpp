@@ -73,12 +73,13 @@ class ContactSet {
   void begin(const Rods& rods, const Friction* friction, const FrictionOrigins& origins,
              double step);
 
-  /// Makes the friction of some islands that of the normal forces where the rods are now, whose
-  /// distances have been found, and updates its energies.
+  /// Brings the friction of some islands nearer to that of the normal forces where the rods are
+  /// now, whose distances have been found, and updates its energies.
   /// @param islands by rod
-  /// @param which   by island: whether it is one of them
+  /// @param shares  by island: of the way from the forces before to those of now, in (0, 1]; 0 for
+  ///                islands that stay as they are
   void update_friction(const Rods& rods, const std::vector<std::uint32_t>& islands,
-                       const std::vector<bool>& which);
+                       const std::vector<double>& shares);
 
   /// Adds the slips at which the contacts with friction end the step.
   /// @param rods where they are then
@@ -165,6 +166,7 @@ class ContactSet {
  private:
   /// A contact with a normal force.
   struct FrictionPoint {
+    std::size_t contact;
     ContactPoints points;
     Eigen::Vector3d normal;
     double max_force;                     // [N]
@@ -175,8 +177,8 @@ class ContactSet {
   };
 
   void relax_initial_overlap(const Rods& rods);
-  template <class Predicate>
-  void add_friction(const Rods& rods, const Predicate& is_wanted);
+  template <class ShareOf>
+  void add_friction(const Rods& rods, const ShareOf& share_of);
   double restitution_of(std::size_t contact) const;
   Eigen::Vector3d obstacle_velocity(const Rods& rods, const ContactPoints& points) const;
   void add_terms_of_motion(const Rods& rods);
@@ -199,8 +201,9 @@ class ContactSet {
   std::vector<ObstacleDistance> obstacle_distances_;  // by contact
   std::vector<bool> was_near_;                        // when the step began, by contact
   std::vector<FrictionPoint> frictions_;
-  std::vector<Impact> impacts_;  // of the step
-  bool has_motion_ = false;      // in this solve
+  std::vector<double> max_forces_before_;  // of friction, by contact [N]; buffer
+  std::vector<Impact> impacts_;            // of the step
+  bool has_motion_ = false;                // in this solve
   // Kept for the next solve. Those of a copy are the same, as its contacts are with them.
   std::shared_ptr<MovedShapes> moved_;
   const Friction* friction_ = nullptr;

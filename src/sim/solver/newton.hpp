@@ -94,6 +94,8 @@ class NewtonSolver {
     std::uint32_t corrections = 0;     ///< iterations of correct_short_steps()
     bool is_active = true;             ///< iterates
     bool has_friction_of_now = false;  ///< by the normal forces where its rods are
+    double friction_share = 1.0;       ///< of the way to these forces that updates go
+    double friction_change = 0.0;      ///< of energy by all of the way, in the last one [J]
     bool is_converged = false;
     bool was_converged = false;  ///< before multipliers were updated
   };
@@ -165,7 +167,7 @@ class NewtonSolver {
   std::vector<double> ways_left_;
   std::vector<double> progress_before_;
   std::vector<EnergySum> energies_before_;
-  std::vector<bool> has_new_friction_;
+  std::vector<double> friction_shares_;
 
   // Those of correct_short_steps(), by island and by pack:
   std::vector<bool> is_short_;

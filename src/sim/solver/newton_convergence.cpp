@@ -1,6 +1,9 @@
 // The part of a solve that tells whether it has converged: its residuals, and what changes the
 // problem on the way there, multipliers and the normal forces of friction.
 
+#include <algorithm>
+#include <cmath>
+
 #include "src/sim/solver/newton.hpp"
 
 namespace fiber {
@@ -27,7 +30,8 @@ void NewtonSolver::check_convergence(Rods& rods, const Problem& problem, std::ui
                                                         : 1.0) *
                          problem.options.residual;
   const auto is_near = [&](std::size_t i) {
-    return states_[i].is_active && reports_[i].residual <= allowed;
+    // What is left of the way to the friction of now is as much as has been gone of it.
+    return states_[i].is_active && reports_[i].residual <= states_[i].friction_share * allowed;
   };
   bool has_friction_of_before = false;
   for (std::size_t i = 0; i < states_.size(); ++i) {
@@ -102,20 +106,41 @@ bool NewtonSolver::update_multipliers(Rods& rods, const Problem& problem) {
 /// Makes the friction of islands that are near convergence that of the normal forces where they
 /// are. A step that ends with friction by the forces of the step before has none in a contact that
 /// begins, and any in an impact (Larionov et al. 2023).
+///
+/// That is an iteration to a fixed point, which diverges where friction raises the normal forces by
+/// which it goes by more than they have been raised. Its energy changes by turns up and down then,
+/// and from by how much it follows how far to go (Aitken's relaxation; Irons and Tuck 1969).
 void NewtonSolver::update_friction(const Rods& rods, const Problem& problem) {
   constexpr double near_convergence = 1000.0;  // times the residual that is allowed
+  constexpr double slow = 0.9;  // so much of the change before makes the iteration hardly converge
+  constexpr double min_share = 0.2;
   if (problem.friction == nullptr) {
     return;
   }
-  has_new_friction_.clear();
+  friction_shares_.clear();
   for (std::size_t i = 0; i < states_.size(); ++i) {
     IslandState& state = states_[i];
     state.has_friction_of_now =
         state.is_active && reports_[i].residual <= near_convergence * problem.options.residual;
-    has_new_friction_.push_back(state.has_friction_of_now);
+    friction_shares_.push_back(state.has_friction_of_now ? state.friction_share : 0.0);
   }
-  problem.contacts->update_friction(rods, scratch_->islands, has_new_friction_);
+  energies_before_ = energies_;
+  problem.contacts->update_friction(rods, scratch_->islands, friction_shares_);
   sum_energies(problem);
+  for (std::size_t i = 0; i < states_.size(); ++i) {
+    IslandState& state = states_[i];
+    const double share = friction_shares_[i];
+    const double change =
+        share > 0.0 ? (energies_[i].energy - energies_before_[i].energy) / share : 0.0;
+    if (state.friction_change != 0.0 && std::abs(change) > energies_[i].roundoff()) {
+      const double ratio = change / state.friction_change;
+      if (share < 1.0 || ratio < -slow) {
+        state.friction_share =
+            1.0 - ratio > share ? std::max(min_share, share / (1.0 - ratio)) : 1.0;
+      }
+    }
+    state.friction_change = change;
+  }
 }
 
 }  // namespace fiber
