@@ -71,6 +71,7 @@ void add_simulate_command(CLI::App& app, Command& command) {
   add_count(*simulate, "--cable-frames", what.effects.frames, "to measure of these");
   add_count(*simulate, "--load-cables", what.loads.cables, "in contact, with friction");
   add_count(*simulate, "--load-rods", what.loads.rods, "without contact");
+  add_count(*simulate, "--load-branches", what.loads.branches, "of a harness on an arm");
   add_count(*simulate, "--load-frames", what.loads.frames, "to time of each of these");
   add_counts(*simulate, "--load-substeps", what.loads.substeps, "of these frames");
   add_counts(*simulate, "--load-threads", what.loads.threads, "to move these with", 0);

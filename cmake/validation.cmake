@@ -17,6 +17,7 @@ target_link_libraries(validation_geometry
 add_library(validation_sim STATIC
   validation/sim/elastica.cpp
   validation/sim/friction_scenes.cpp
+  validation/sim/harness_scene.cpp
   validation/sim/instability.cpp
   validation/sim/joints.cpp
   validation/sim/loads.cpp

@@ -7,7 +7,7 @@
 #include "fiber_proximity/sim/joints.hpp"
 #include "fiber_proximity/sim/loads.hpp"
 #include "fiber_proximity/sim/moving_obstacles.hpp"
-#include "validation/sim/contact_scenes.hpp"
+#include "validation/sim/moving_scene.hpp"
 
 namespace fiber {
 
@@ -47,13 +47,7 @@ Rods make_cables(const EffectScene& scene, std::uint32_t parts) {
 
 /// An obstacle of this shape that rises.
 std::vector<MovingObstacle> rising(const Shape& shape) {
-  MovingObstacle obstacle;
-  obstacle.object.name = "table";
-  obstacle.object.shapes.push_back({shape, Eigen::Isometry3d::Identity()});
-  obstacle.placement = [](double time) {
-    return Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, 0.05 * time));
-  };
-  return {obstacle};
+  return {going(shape, Vector3d::Zero(), {0.0, 0.0, 0.05})};
 }
 
 /// A part of each cable is stiffer and heavier.

@@ -8,6 +8,7 @@
 #include "fiber_proximity/sim/attachment.hpp"
 #include "src/accuracy/statistics.hpp"
 #include "validation/sim/contact_scenes.hpp"
+#include "validation/sim/harness_scene.hpp"
 
 namespace fiber {
 
@@ -44,6 +45,17 @@ Stepper swinging_rods(const LoadSizes& sizes, std::uint32_t threads) {
 }
 
 /// [ms]
+double time_of_run(Stepper& stepper, const LoadSizes& sizes, std::uint32_t substeps) {
+  const auto run = [&](std::uint32_t frames) {
+    for (std::uint32_t i = 0; i < frames * substeps; ++i) {
+      stepper.step(frame_time / substeps);
+    }
+  };
+  run(std::max(1U, sizes.frames / 4));
+  return time_of([&] { run(sizes.frames); });
+}
+
+/// [ms]
 double time_cables(const LoadSizes& sizes, std::uint32_t substeps, std::uint32_t threads) {
   EffectScene scene;
   scene.cables = sizes.cables;
@@ -59,13 +71,15 @@ double time_cables(const LoadSizes& sizes, std::uint32_t substeps, std::uint32_t
 /// [ms]
 double time_rods(const LoadSizes& sizes, std::uint32_t substeps, std::uint32_t threads) {
   Stepper stepper = swinging_rods(sizes, threads);
-  const auto run = [&](std::uint32_t frames) {
-    for (std::uint32_t i = 0; i < frames * substeps; ++i) {
-      stepper.step(frame_time / substeps);
-    }
-  };
-  run(std::max(1U, sizes.frames / 4));
-  return time_of([&] { run(sizes.frames); });
+  return time_of_run(stepper, sizes, substeps);
+}
+
+/// [ms]
+double time_harness(const LoadSizes& sizes, std::uint32_t substeps, std::uint32_t threads) {
+  StepperOptions options;
+  options.threads = threads;
+  Stepper stepper = harness_on_an_arm({sizes.branches, sizes.branch_segments}, options);
+  return time_of_run(stepper, sizes, substeps);
 }
 
 }  // namespace
@@ -84,6 +98,7 @@ void measure_loads(const LoadSizes& sizes, const std::function<void(const LoadRe
       };
       add("cables in contact", sizes.cables, sizes.cable_segments, time_cables);
       add("swinging rods", sizes.rods, sizes.rod_segments, time_rods);
+      add("harness on an arm", 1 + sizes.branches, sizes.branch_segments, time_harness);
     }
   }
 }

@@ -13,6 +13,8 @@ struct LoadSizes {
   std::uint32_t cable_segments = 100;
   std::uint32_t rods = 1000;  ///< that swing without contact, from one end
   std::uint32_t rod_segments = 50;
+  std::uint32_t branches = 8;  ///< of a harness on an arm that moves, with plugs and clips
+  std::uint32_t branch_segments = 60;
   std::uint32_t frames = 120;       ///< of 1/60 s, to measure
   std::vector<int> substeps{1, 4};  ///< of a frame
   std::vector<int> threads{1, 0};   ///< 0 for as many as there are cores

@@ -63,14 +63,16 @@ TEST_F(FiberBench, SaysWhatTheSimulationCostsAndHowItErrs) {
 
 TEST_F(FiberBench, SaysHowFastLargeScenesAreBesideTheClock) {
   const ProcessResult result = bench(
-      "simulate --parts real_time --load-cables 2 --load-rods 5 --load-frames 4 "
+      "simulate --parts real_time --load-cables 2 --load-rods 5 --load-branches 2 --load-frames 4 "
       "--load-substeps 2 --load-threads 1,0 --json");
   EXPECT_EQ(result.exit_code, 0) << result.err;
   const std::vector<nlohmann::json> rows = json_lines(result.out);
-  ASSERT_EQ(rows.size(), 2U * 2U);
+  ASSERT_EQ(rows.size(), 3U * 2U);
   EXPECT_EQ(rows[0].at("scene"), "cables in contact");
   EXPECT_EQ(rows[1].at("rods"), 5);
   EXPECT_EQ(rows[1].at("threads"), 1);
+  EXPECT_EQ(rows[2].at("scene"), "harness on an arm");
+  EXPECT_EQ(rows[2].at("rods"), 3);
   for (const nlohmann::json& row : rows) {
     EXPECT_GE(row.at("threads"), 1);
     const double steps_per_second = 60.0 * row.at("substeps").get<double>();

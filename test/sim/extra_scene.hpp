@@ -9,9 +9,9 @@
 
 #include "fiber_proximity/sim/joints.hpp"
 #include "fiber_proximity/sim/loads.hpp"
-#include "test/sim/moving_scene.hpp"
 #include "test/sim/random_rods.hpp"
 #include "validation/sim/contact_scenes.hpp"
+#include "validation/sim/moving_scene.hpp"
 
 namespace fiber::test {
 

@@ -5,12 +5,14 @@
 #include <cmath>
 
 #include "fiber_proximity/sim/contacts.hpp"
-#include "validation/sim/contact_scenes.hpp"
 #include "validation/sim/elastica.hpp"
 #include "validation/sim/friction_scenes.hpp"
+#include "validation/sim/moving_scene.hpp"
 
 namespace fiber::test {
 namespace {
+
+using Eigen::Vector3d;
 
 class Coefficient : public testing::TestWithParam<double> {};
 
@@ -59,6 +61,41 @@ TEST(Friction, WithoutACoefficientNothingSticks) {
   Incline incline(0.1, 0.0);
   incline.run(1.0);
   EXPECT_NEAR(incline.speed(), standard_gravity * std::sin(0.1), 1e-3);
+}
+
+/// A stick that leans and hangs from its upper end is dragged outwards at the lower one: friction
+/// lifts it, by twice as much as the force that presses and that friction goes by. The balance of
+/// moments about the pin tells the force.
+TEST(Friction, LiftsBySteepSticksMoreThanTheForceItGoesBy) {
+  constexpr double height = 0.4;
+  constexpr double reach = 0.1;
+  constexpr double coefficient = 0.5;
+  constexpr double radius = 0.005;
+  Rods rods;
+  rods.add(straight({0.0, 0.0, height + radius}, {reach, 0.0, radius}, 4), radius,
+           solid_round_section({2e11, 8e10, 7800.0}, radius));
+  double weight = 0.0;
+  double moment = 0.0;  // of weight about the pin
+  for (std::size_t i = 0; i < rods.positions.size(); ++i) {
+    weight += standard_gravity * rods.masses[i];
+    moment += standard_gravity * rods.masses[i] * rods.positions[i].x();
+  }
+  Effects effects = elastic(standard_gravity);
+  effects.push_back(hold(rods, {pin(0, rods.positions.front())}));
+  Stepper stepper(rods, std::move(effects), StepperOptions{},
+                  contacts_with_moving({going(HalfSpaceShape{}, Vector3d::Zero(), {0.5, 0.0, 0.0})},
+                                       coefficient));
+  for (int i = 0; i < 240; ++i) {
+    stepper.step(1.0 / 240.0);
+    ASSERT_EQ(stepper.report().unbalanced, 0U) << "step " << i;
+  }
+  const RodForces forces = stepper.forces();
+  ASSERT_EQ(forces.contacts.size(), 1U);
+  const double pressing = forces.contacts[0].normal_force.z();
+  const double expected = moment / (reach + coefficient * height);
+  EXPECT_NEAR(pressing, expected, 0.02 * expected);
+  EXPECT_NEAR(forces.contacts[0].friction_force.x(), coefficient * pressing, 0.02 * pressing);
+  EXPECT_GT(weight, 2.0 * pressing);
 }
 
 }  // namespace

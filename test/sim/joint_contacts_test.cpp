@@ -8,6 +8,7 @@
 #include "test/sim/random_rods.hpp"
 #include "test/sim/tunnelling.hpp"
 #include "validation/sim/contact_scenes.hpp"
+#include "validation/sim/harness_scene.hpp"
 
 namespace fiber::test {
 namespace {
@@ -73,7 +74,7 @@ TEST(JointContacts, LinkedRingsDoNotPass) {
   Stepper stepper(rods, std::move(all), StepperOptions{}, contacts_with(nullptr, 0.2),
                   std::move(joints));
   double lowest = 0.0;
-  for (int i = 0; i < 240; ++i) {
+  for (int i = 0; i < 360; ++i) {
     const std::vector<Vector3d> before = stepper.rods().positions;
     stepper.step(1.0 / 240.0);
     ASSERT_TRUE(all_finite(stepper.rods()));
@@ -203,6 +204,26 @@ TEST(JointContacts, ImpactsOnAJointMoveAllOfIt) {
   for (const Vector3d& velocity : stepper.rods().velocities) {
     EXPECT_NEAR(velocity.z(), default_restitution, 2e-3);
   }
+}
+
+/// Its branches stay at the trunk's end, to the last bit, while they swing and touch.
+TEST(JointContacts, AHarnessOnAnArmBalancesInEachStep) {
+  StepperOptions options;
+  options.threads = 1;
+  Stepper stepper = harness_on_an_arm({}, options);
+  std::size_t contacts = 0;
+  for (int i = 0; i < 360; ++i) {
+    stepper.step(1.0 / 240.0);
+    ASSERT_EQ(stepper.report().unbalanced, 0U)
+        << "step " << i << ": " << stepper.report().worst.residual << " m/s";
+    contacts = std::max(contacts, stepper.forces().contacts.size());
+  }
+  EXPECT_GT(contacts, 5U);
+  const Rods& rods = stepper.rods();
+  for (std::uint32_t branch = 1; branch < rods.count(); ++branch) {
+    EXPECT_EQ(rods.positions[rods.first(branch)], rods.positions[rods.end(0) - 1]);
+  }
+  EXPECT_GT((rods.positions.front() - Vector3d(-0.5, 0.0, 1.0)).norm(), 0.1) << "it has swung";
 }
 
 }  // namespace

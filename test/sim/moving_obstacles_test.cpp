@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "test/environment/random_shapes.hpp"
-#include "test/sim/moving_scene.hpp"
 #include "test/support/random.hpp"
+#include "validation/sim/moving_scene.hpp"
 
 namespace fiber::test {
 namespace {

@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include "test/environment/random_shapes.hpp"
-#include "test/sim/moving_scene.hpp"
 #include "test/sim/throw.hpp"
 #include "test/support/rounds.hpp"
+#include "validation/sim/moving_scene.hpp"
 
 namespace fiber::test {
 namespace {

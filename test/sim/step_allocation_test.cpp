@@ -13,7 +13,7 @@
 #include "test/sim/cost_scenes.hpp"
 #include "test/sim/counted_memory.hpp"
 #include "test/sim/joint_scenes.hpp"
-#include "test/sim/moving_scene.hpp"
+#include "validation/sim/moving_scene.hpp"
 
 namespace fiber::test {
 namespace {

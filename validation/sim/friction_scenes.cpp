@@ -6,7 +6,7 @@
 
 #include "fiber_proximity/sim/joints.hpp"
 #include "fiber_proximity/sim/moving_obstacles.hpp"
-#include "validation/sim/contact_scenes.hpp"
+#include "validation/sim/moving_scene.hpp"
 
 namespace fiber {
 
@@ -96,30 +96,17 @@ namespace {
 /// A cylinder along z that turns about its axis.
 /// @param turn_rate [rad/s]
 MovingObstacle drum_at(const Vector3d& center, double radius, double turn_rate) {
-  MovingObstacle drum;
-  drum.object.name = "drum of " + std::to_string(radius) + " m";
-  drum.object.shapes.push_back({CylinderShape{radius, 1.0}, Eigen::Isometry3d::Identity()});
-  drum.placement = [center, turn_rate](double time) {
-    return Eigen::Isometry3d(Eigen::Translation3d(center) *
-                             Eigen::AngleAxisd(turn_rate * time, Vector3d::UnitZ()));
-  };
-  return drum;
-}
-
-std::unique_ptr<Contacts> contacts_with_drums(const std::vector<MovingObstacle>& drums,
-                                              double friction) {
-  std::vector<std::unique_ptr<ContactSource>> sources;
-  const auto motions = std::make_shared<ObstacleMotions>(drums, 0);
-  sources.push_back(
-      std::make_unique<MovingObstacleContact>(motions, EnvironmentContact::Options{}));
-  return std::make_unique<Contacts>(
-      std::move(sources), std::make_unique<Friction>(Friction::Options{friction, 1e-3}), motions);
+  return moving("drum of " + std::to_string(radius) + " m", CylinderShape{radius, 1.0},
+                [center, turn_rate](double time) {
+                  return Eigen::Isometry3d(Eigen::Translation3d(center) *
+                                           Eigen::AngleAxisd(turn_rate * time, Vector3d::UnitZ()));
+                });
 }
 
 /// The post, which turns the other way at the speed at which a rope is drawn, or stands.
 std::unique_ptr<Contacts> contacts_with_post(double turn_rate, double friction) {
   if (turn_rate != 0.0) {
-    return contacts_with_drums({drum_at(Vector3d::Zero(), post_radius, -turn_rate)}, friction);
+    return contacts_with_moving({drum_at(Vector3d::Zero(), post_radius, -turn_rate)}, friction);
   }
   std::vector<std::unique_ptr<ContactSource>> sources;
   sources.push_back(std::make_unique<EnvironmentContact>(
@@ -252,7 +239,7 @@ BeltDrive simulated_belt_drive(bool turns_large, double friction) {
   const double turn_rate = speed / (turns_large ? large_drum : small_drum);
   Stepper stepper(
       rods, elastic(), StepperOptions{},
-      contacts_with_drums(
+      contacts_with_moving(
           {drum_at(Vector3d::Zero(), large_drum, turns_large ? turn_rate : 0.0),
            drum_at({drum_distance, 0.0, 0.0}, small_drum, turns_large ? 0.0 : turn_rate)},
           friction),

@@ -201,6 +201,7 @@ bool NewtonSolver::predict(Rods& rods, const Problem& problem) {
   if (!bound_step(rods, problem)) {
     return false;
   }
+  take_obstacles_along(rods, problem);
   line_search(rods, problem, 0);
   return true;
 }

@@ -123,6 +123,7 @@ class NewtonSolver {
   std::vector<double> kinetic_energies(const Rods& rods) const;
   double resolve_impacts(Rods& rods, const Problem& problem, const std::vector<Impact>& impacts);
   bool predict(Rods& rods, const Problem& problem);
+  void take_obstacles_along(Rods& rods, const Problem& problem);
   bool move_obstacles(Rods& rods, const Problem& problem);
   void begin_drives(const Rods& rods, const Problem& problem);
   void raise_drives(const Rods& rods, const Problem& problem);

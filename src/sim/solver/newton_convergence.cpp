@@ -30,8 +30,11 @@ void NewtonSolver::check_convergence(Rods& rods, const Problem& problem, std::ui
                                                         : 1.0) *
                          problem.options.residual;
   const auto is_near = [&](std::size_t i) {
-    // What is left of the way to the friction of now is as much as has been gone of it.
-    return states_[i].is_active && reports_[i].residual <= states_[i].friction_share * allowed;
+    // A residual by a part of the way to the friction of now has that part of its change, less what
+    // is left of Newton's iteration, which may be half of it.
+    const double share = states_[i].friction_share;
+    return states_[i].is_active &&
+           reports_[i].residual <= (share < 1.0 ? 0.5 * share : 1.0) * allowed;
   };
   bool has_friction_of_before = false;
   for (std::size_t i = 0; i < states_.size(); ++i) {
@@ -130,14 +133,15 @@ void NewtonSolver::update_friction(const Rods& rods, const Problem& problem) {
   for (std::size_t i = 0; i < states_.size(); ++i) {
     IslandState& state = states_[i];
     const double share = friction_shares_[i];
-    const double change =
-        share > 0.0 ? (energies_[i].energy - energies_before_[i].energy) / share : 0.0;
-    if (state.friction_change != 0.0 && std::abs(change) > energies_[i].roundoff()) {
-      const double ratio = change / state.friction_change;
-      if (share < 1.0 || ratio < -slow) {
-        state.friction_share =
-            1.0 - ratio > share ? std::max(min_share, share / (1.0 - ratio)) : 1.0;
-      }
+    if (share == 0.0) {
+      continue;
+    }
+    const double change = (energies_[i].energy - energies_before_[i].energy) / share;
+    const double ratio = state.friction_change != 0.0 ? change / state.friction_change : 0.0;
+    if (std::abs(change) <= energies_[i].roundoff()) {
+      state.friction_share = 1.0;
+    } else if (share < 1.0 || ratio < -slow) {
+      state.friction_share = 1.0 - ratio > share ? std::max(min_share, share / (1.0 - ratio)) : 1.0;
     }
     state.friction_change = change;
   }

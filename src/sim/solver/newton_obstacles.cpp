@@ -8,6 +8,38 @@
 
 namespace fiber {
 
+/// In the first guess obstacles go all of their way with the rods, if the bound allows it for both
+/// and the energy is lower there. So what lies on an obstacle that moves on as it did, and moves
+/// with it, begins where it presses as it did.
+void NewtonSolver::take_obstacles_along(Rods& rods, const Problem& problem) {
+  MovedShapes* const moved =
+      problem.contacts != nullptr ? problem.contacts->moved_shapes() : nullptr;
+  if (moved == nullptr) {
+    return;
+  }
+  line_search_.begin(states_.size(), 0);
+  std::vector<bool>& goes = is_short_;
+  goes.assign(states_.size(), false);
+  for (std::size_t i = 0; i < states_.size(); ++i) {
+    goes[i] = moved->progress(i) < 1.0 && trial_shares_[i] == 1.0;
+    line_search_.island(i).share = goes[i] ? 1.0 : 0.0;
+    if (goes[i]) {
+      moved->go_to(i, 1.0);
+    }
+  }
+  if (std::find(goes.begin(), goes.end(), true) == goes.end()) {
+    return;
+  }
+  energies_before_ = energies_;
+  evaluate_trial_step(rods, problem);
+  for (std::size_t i = 0; i < states_.size(); ++i) {
+    if (goes[i] && !(energies_[i].energy <= energies_before_[i].energy)) {
+      moved->go_to(i, 0.0);
+    }
+  }
+  energies_ = energies_before_;
+}
+
 /// Obstacles come along as rods give way: each step of Newton's method is one of both, rods and
 /// what is left of the obstacles' way, and the bound on it knows both motions. So nothing passes,
 /// and what is pushed moves with what pushes it.

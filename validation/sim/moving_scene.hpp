@@ -10,7 +10,7 @@
 #include "fiber_proximity/sim/moving_obstacles.hpp"
 #include "validation/sim/contact_scenes.hpp"
 
-namespace fiber::test {
+namespace fiber {
 
 using PoseInTime = std::function<Eigen::Isometry3d(double time)>;
 
@@ -53,4 +53,4 @@ inline std::unique_ptr<Contacts> contacts_with_moving(
   return std::make_unique<Contacts>(std::move(sources), std::move(friction), motions);
 }
 
-}  // namespace fiber::test
+}  // namespace fiber
