@@ -31,8 +31,9 @@ class ContactNeighbours {
   std::vector<double> arcs_;                         // along each rod at rest, by node [m]
   std::vector<std::uint32_t> rods_;                  // by node, if there are joints
   std::vector<std::vector<std::uint32_t>> members_;  // nodes, by joint
-  std::vector<double>
-      to_joint_;  // by edge: along its rod to the nearest joint, if there are some [m]
+
+  // By edge, if there are joints: along its rod to the nearest one; infinite without one [m].
+  std::vector<double> to_joint_;
 };
 
 }  // namespace fiber
