@@ -170,22 +170,6 @@ void NewtonSolver::sum_energies(const Problem& problem) {
   }
 }
 
-/// Stored energy of rods and contacts where they were evaluated last, by island [J].
-void NewtonSolver::find_stored_energies(const Problem& problem, std::vector<double>& stored) const {
-  stored.assign(states_.size(), 0.0);
-  for (std::size_t pack = 0; pack < packs_.size(); ++pack) {
-    for (std::size_t lane = 0; lane < packs_[pack].rods().used; ++lane) {
-      stored[islands_[pack][lane]] += packs_[pack].stored_energy(lane);
-    }
-  }
-  if (problem.contacts != nullptr) {
-    problem.contacts->add_stored_energies(scratch_->islands, stored);
-  }
-  if (problem.joints != nullptr) {
-    joint_solver_.add_stored_energies(joint_problem(problem), stored);
-  }
-}
-
 /// The first guess: moves the rods to where inertia alone leads, as far as the bound allows, if the
 /// energy is lower there.
 /// @returns false if a rod needs a wider travel bound

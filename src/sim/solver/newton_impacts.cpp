@@ -174,6 +174,22 @@ double allowed_share(const std::vector<StruckNode>& nodes, const Rods& after, do
 
 }  // namespace
 
+/// Stored energy of rods and contacts where they were evaluated last, by island [J].
+void NewtonSolver::find_stored_energies(const Problem& problem, std::vector<double>& stored) const {
+  stored.assign(states_.size(), 0.0);
+  for (std::size_t pack = 0; pack < packs_.size(); ++pack) {
+    for (std::size_t lane = 0; lane < packs_[pack].rods().used; ++lane) {
+      stored[islands_[pack][lane]] += packs_[pack].stored_energy(lane);
+    }
+  }
+  if (problem.contacts != nullptr) {
+    problem.contacts->add_stored_energies(scratch_->islands, stored);
+  }
+  if (problem.joints != nullptr) {
+    joint_solver_.add_stored_energies(joint_problem(problem), stored);
+  }
+}
+
 /// Kinetic energy of the rods at their velocities, by island [J].
 std::vector<double> NewtonSolver::kinetic_energies(const Rods& rods) const {
   std::vector<double> energies(states_.size(), 0.0);
