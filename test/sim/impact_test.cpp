@@ -88,6 +88,28 @@ TEST(Impact, NeverPulls) {
   EXPECT_EQ(impacts[1].pressure, 0.0);
 }
 
+/// What a contact has given is taken back down to the speed with which the step began, no further,
+/// and no more than it has given.
+TEST(Impact, TakesBackNoMoreThanHasBeenGiven) {
+  const auto speed_after = [](double speed, double returnable) {
+    Rods rods;
+    rods.add(straight({0, 0, 0}, {1, 0, 0}, 1), 0.01, rubber(0.01));
+    rods.velocities.assign(2, speed * Vector3d::UnitZ());
+    Impact impact{};
+    impact.points = {0, 0, 0.0, 0, ContactPoints::no_edge, 0.0};
+    impact.normal = Vector3d::UnitZ();
+    impact.returnable = returnable * rods.masses[0];
+    impact.max_separation = 0.5;
+    std::vector<Impact> impacts{impact};
+    resolve(rods, 0.0, impacts);
+    return rods.velocities[0].z();
+  };
+  EXPECT_NEAR(speed_after(0.8, 10.0), 0.5, 1e-6);
+  EXPECT_NEAR(speed_after(0.8, 0.1), 0.7, 1e-6);
+  EXPECT_NEAR(speed_after(0.3, 10.0), 0.3, 1e-12);
+  EXPECT_NEAR(speed_after(-0.3, 10.0), -0.3, 1e-12);
+}
+
 /// The highest point above the table after the first impact, by energy: the square of the rebound's
 /// speed.
 TEST_P(DropOf, ReboundsByItsRestitutionAndNeverHigherThanItFell) {
