@@ -81,6 +81,16 @@ geometry_msgs::WrenchStamped wrench_of(const fiber::SimScene& scene,
   return message;
 }
 
+/// What holds, joints and loads have alike: the node, where it is, and what acts there.
+template <class Force, class Message>
+void fill_in_wrench(const Force& force, Message& message) {
+  message.fiber = force.rod;
+  message.node = force.node;
+  message.point = to_message(force.point);
+  message.force = to_vector_message(force.force);
+  message.moment = to_vector_message(force.moment);
+}
+
 /// Memory of the message is reused.
 void fill_in(const fiber::SimScene& scene, const fiber::RodForces& forces,
              fiber_proximity::ForceArray& message) {
@@ -111,11 +121,7 @@ void fill_in(const fiber::SimScene& scene, const fiber::RodForces& forces,
   message.holds.clear();
   for (const fiber::RodForces::HoldForce& force : forces.holds) {
     fiber_proximity::HoldForce& hold = message.holds.emplace_back();
-    hold.fiber = force.rod;
-    hold.node = force.node;
-    hold.point = to_message(force.point);
-    hold.force = to_vector_message(force.force);
-    hold.moment = to_vector_message(force.moment);
+    fill_in_wrench(force, hold);
     hold.lag = force.lag;
     hold.max_force = force.max_force;
   }
@@ -123,21 +129,13 @@ void fill_in(const fiber::SimScene& scene, const fiber::RodForces& forces,
   for (const fiber::RodForces::JointForce& force : forces.joints) {
     fiber_proximity::JointForce& joint = message.joints.emplace_back();
     joint.joint = force.joint;
-    joint.fiber = force.rod;
-    joint.node = force.node;
-    joint.point = to_message(force.point);
-    joint.force = to_vector_message(force.force);
-    joint.moment = to_vector_message(force.moment);
+    fill_in_wrench(force, joint);
   }
   message.loads.clear();
   for (const fiber::RodForces::LoadForce& force : forces.loads) {
     fiber_proximity::LoadForce& load = message.loads.emplace_back();
     load.load = force.load;
-    load.fiber = force.rod;
-    load.node = force.node;
-    load.point = to_message(force.point);
-    load.force = to_vector_message(force.force);
-    load.moment = to_vector_message(force.moment);
+    fill_in_wrench(force, load);
   }
   const fiber::IslandReport& worst = scene.stepper->report().worst;
   message.residual = worst.residual;
