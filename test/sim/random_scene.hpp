@@ -27,6 +27,7 @@ struct RandomScene {
   StepperOptions options;
   double step = 0.0;
   bool is_windy = false;
+  bool has_friction = false;
   bool has_table = false;
   bool is_inextensible = false;
   std::string description;
@@ -156,6 +157,7 @@ class RandomSceneMaker {
     }
     std::unique_ptr<Friction> friction;
     if (chance("friction", 0.6)) {
+      scene_.has_friction = true;
       friction = std::make_unique<Friction>(Friction::Options{random_.uniform(0.0, 1.0), 1e-3});
     }
     scene_.contacts = std::make_unique<Contacts>(std::move(sources), std::move(friction));
@@ -192,10 +194,15 @@ inline double energy_of_change(Rods rods, const Rods& before) {
 /// energy, and no step ends higher, however few its iterations are. So what is stored after it, and
 /// half the square of how speeds have changed, are no more than there was: a step that is cut short
 /// may gain energy only by that much. Impacts, which change speeds once more, give back no more
-/// than the step has taken.
+/// than the step has taken. Where such a step has friction or impacts, too, there is no such bound:
+/// friction changes the potential of a step with its normal forces, impacts the speeds.
 inline testing::AssertionResult gains_no_more_than_it_may(const Stepper& stepper,
-                                                          const Rods& before, double slack) {
+                                                          const Rods& before, bool has_friction,
+                                                          double slack) {
   const double gain = stepper.report().energy_gain;
+  if (stepper.report().unbalanced > 0 && (has_friction || stepper.report().impacts > 0)) {
+    return testing::AssertionSuccess();
+  }
   double most = kinetic_energy(stepper.rods()) - energy_of_change(stepper.rods(), before) + slack;
   if (stepper.report().impacts > 0) {
     most = std::max(most, slack);

@@ -99,7 +99,8 @@ TEST(RandomScenes, KeepApartBalanceAndGainNoEnergy) {
         told << pair << " pass through each other";
       } else if (share < std::min(start, inner_share)) {
         told << "axes at " << share << " of the sum of radii";
-      } else if (const auto gain = gains_no_more_than_it_may(stepper, last, 1e-9 * scale);
+      } else if (const auto gain =
+                     gains_no_more_than_it_may(stepper, last, scene.has_friction, 1e-9 * scale);
                  !is_driven && is_euler && !gain) {
         told << gain.message();
       } else if (!is_driven && stepper.energy() > before + (is_euler ? 1e-2 : 0.5) * scale) {

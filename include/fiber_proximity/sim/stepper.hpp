@@ -68,7 +68,9 @@ struct StepReport {
   /// The increase of kinetic and stored energy by the step, without the work of its input [J]. A
   /// converged step of implicit Euler gains none where the stored energy is convex on its way.
   /// Where it is not, as in buckling, it may gain what is left of the kinetic energy of the end
-  /// less that of how speeds have changed, and so may a step that its iterations cut short.
+  /// less that of how speeds have changed, and so may a step that its iterations cut short. Such a
+  /// step may gain more where friction grew in it with its normal forces, or impacts changed
+  /// speeds.
   double energy_gain = 0.0;
 };
 
