@@ -28,6 +28,7 @@ add_library(fiber_proximity_sim SHARED
   src/sim/effects/stretch.cpp
   src/sim/effects/twist.cpp
   src/sim/joint/joints.cpp
+  src/sim/joint/make_welds.cpp
   src/sim/joint/weld.cpp
   src/sim/overlaps.cpp
   src/sim/separation.cpp

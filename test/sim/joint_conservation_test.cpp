@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "src/sim/joint/joint_parts.hpp"
+#include "src/sim/joint/make_welds.hpp"
 #include "test/sim/joint_scenes.hpp"
 
 namespace fiber::test {

@@ -10,6 +10,7 @@
 #include "fiber_proximity/sim/effects.hpp"
 #include "src/sim/edges.hpp"
 #include "src/sim/joint/joint_parts.hpp"
+#include "src/sim/joint/make_welds.hpp"
 
 namespace fiber {
 
@@ -23,75 +24,6 @@ namespace {
 
 std::string name_of(const JointNode& node) {
   return "node " + std::to_string(node.node) + " of rod " + std::to_string(node.rod);
-}
-
-/// The edges that end at a place, each gone along away from it.
-std::vector<WeldedEdge> edges_at(const Rods& rods, const std::vector<PlacedNode>& place) {
-  std::vector<WeldedEdge> edges;
-  for (const auto& [rod, node] : place) {
-    if (node > rods.first(rod)) {
-      edges.push_back({rod, node - 1, node, -1.0});
-    }
-    if (node + 1 < rods.end(rod)) {
-      edges.push_back({rod, node, node, 1.0});
-    }
-  }
-  return edges;
-}
-
-/// Whether a rod itself resists bending between two edges: those beside an inner node, or beside
-/// the seam of a closed rod.
-bool are_consecutive(const Rods& rods, const WeldedEdge& a, const WeldedEdge& b) {
-  const auto [first, last] = std::minmax(a.edge, b.edge);
-  return a.rod == b.rod &&
-         (last == first + 1 ||
-          (rods.is_closed(a.rod) && first == rods.first(a.rod) && last + 2 == rods.end(a.rod)));
-}
-
-struct HalfEdge {
-  double bending;   // stiffness [J]
-  double twisting;  // stiffness [J]
-};
-
-/// Where rods have sections of their own, the half edges at an inner node have equal shares in it.
-HalfEdge half_edge(const Rods& rods, const WeldedEdge& edge) {
-  const double length = 0.5 * rods.rest_lengths[edge.edge];
-  const RodSection& section = rods.sections[edge.rod];
-  const SectionLengths& lengths = rods.section_lengths;
-  if (lengths.empty()) {
-    return {section.bending_stiffness / length, section.twisting_stiffness / length};
-  }
-  const bool is_end = edge.node == rods.first(edge.rod) || edge.node + 1 == rods.end(edge.rod);
-  const double share = is_end ? 1.0 : length / rods.rest_length_at(edge.node);
-  return {section.bending_stiffness / (share * lengths.bending[edge.node]),
-          section.twisting_stiffness / (share * lengths.twisting[edge.node])};
-}
-
-/// The welds between all edges that meet at a place, but for those of one rod that follow each
-/// other: springs from each to a common point, which is left out.
-void add_welds(const Rods& rods, const std::vector<PlacedNode>& place, std::vector<Weld>& welds) {
-  const std::vector<WeldedEdge> edges = edges_at(rods, place);
-  HalfEdge sum{0.0, 0.0};
-  for (const WeldedEdge& edge : edges) {
-    const HalfEdge half = half_edge(rods, edge);
-    sum.bending += half.bending;
-    sum.twisting += half.twisting;
-  }
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    for (std::size_t j = i + 1; j < edges.size(); ++j) {
-      if (are_consecutive(rods, edges[i], edges[j])) {
-        continue;
-      }
-      WeldedEdge towards = edges[i];
-      towards.sign = -towards.sign;
-      Weld weld = make_weld(rods, {towards, edges[j]}, WeldPath::SHORTER);
-      const HalfEdge a = half_edge(rods, edges[i]);
-      const HalfEdge b = half_edge(rods, edges[j]);
-      weld.bending = a.bending * b.bending / sum.bending;
-      weld.twisting = sum.twisting > 0.0 ? a.twisting * b.twisting / sum.twisting : 0.0;
-      welds.push_back(weld);
-    }
-  }
 }
 
 /// The natural turn of a closed rod where it begins and ends, as at a node inside.
@@ -239,17 +171,7 @@ void Joints::close(Rods& rods, std::uint32_t rod) {
   mark_places(*parts_, rods);
   unite(rods);
   if (options_.has_bend || !rods.angles.empty()) {
-    Weld seam = make_weld(rods, {{{rod, last - 1, last, 1.0}, {rod, first, first, 1.0}}},
-                          WeldPath::AS_GIVEN);
-    const SectionLengths& lengths = rods.section_lengths;
-    const auto length = [&](const std::vector<double>& of_nodes) {
-      return lengths.empty() ? rods.rest_length_at_seam(rod) : of_nodes[first] + of_nodes[last];
-    };
-    const RodSection& section = rods.sections[rod];
-    seam.bending = options_.has_bend ? section.bending_stiffness / length(lengths.bending) : 0.0;
-    seam.twisting = section.twisting_stiffness / length(lengths.twisting);
-    seam.is_seam = true;
-    parts_->welds.push_back(seam);
+    parts_->welds.push_back(make_seam(rods, rod, options_.has_bend));
   }
 }
 

@@ -188,34 +188,4 @@ Vector3d WeldStrain::bending_moment() const {
   return has_twist_ ? Vector3d(moment() - twisting_moment() * by_rotation_[2]) : moment();
 }
 
-Weld make_weld(const Rods& rods, const std::array<WeldedEdge, 2>& edges, WeldPath path) {
-  Weld weld;
-  weld.edges = edges;
-  const auto tangent = [&](std::size_t i) -> Vector3d {
-    return weld.edges[i].sign * edge_direction(rods, weld.edges[i].edge).tangent;
-  };
-  // Beyond a right angle the edges lie rather beside each other than behind each other.
-  if (path == WeldPath::SHORTER && tangent(0).dot(tangent(1)) < 0.0) {
-    weld.edges[0].sign *= -1.0;
-  }
-  const Vector3d before = tangent(0);
-  const Vector3d after = tangent(1);
-  const Vector3d across = after - before.dot(after) * before;
-  const double angle = std::atan2(across.norm(), before.dot(after));
-  if (rods.directors.empty()) {
-    weld.natural_turn = {angle, 0.0};
-    return weld;
-  }
-  const auto direction = [&](std::size_t i) {
-    return cross_section(rods, rods, weld.edges[i].edge).first;
-  };
-  const Vector3d first = direction(0);
-  if (across.norm() > 0.0) {
-    const Vector3d side = angle / across.norm() * across;
-    weld.natural_turn = {side.dot(first), side.dot(before.cross(first))};
-  }
-  weld.untwisted = signed_angle(transport(first, before, after), direction(1), after);
-  return weld;
-}
-
 }  // namespace fiber

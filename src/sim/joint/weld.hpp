@@ -118,14 +118,4 @@ class WeldStrain {
   double natural_size_ = 0.0;
 };
 
-/// How a weld goes along its first edge.
-enum class WeldPath {
-  AS_GIVEN,
-  SHORTER  ///< the other way round, if it turned by more than a right angle otherwise
-};
-
-/// Makes a weld between two edges as they are now, with no twist.
-/// @param edges the first gone along towards their place, the second away from it
-Weld make_weld(const Rods& rods, const std::array<WeldedEdge, 2>& edges, WeldPath path);
-
 }  // namespace fiber
