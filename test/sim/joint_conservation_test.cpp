@@ -93,6 +93,10 @@ TEST(Joints, DerivativesOfWelds) {
     Weld weld = make_weld(rods, {{{0, 1, 2, 1.0}, {1, 3, 3, 1.0}}}, WeldPath::SHORTER);
     weld.bending = random.uniform(0.5, 2.0);
     weld.twisting = random.uniform(0.5, 2.0);
+    if (round % 4 == 0) {
+      const double angle = random.uniform(0.0, 3.0);
+      weld.stiff_side = {random.uniform(0.5, 2.0), {std::cos(angle), std::sin(angle)}};
+    }
     ASSERT_NEAR(WeldStrain(weld, rods, rods).energy(), 0.0, 1e-15);
     weld.damping_share = round % 3 == 0 ? 0.7 : 0.0;
     weld.earlier_strain = WeldStrain(weld, rods, rods).strain();

@@ -227,8 +227,8 @@ struct Rods : RodState {
   /// sections say. The cross-sections take the side with them. AnisotropicBend acts by it. To be
   /// called after set_sections().
   /// @param towards to which side of its first edge; of any length
-  /// @throws std::invalid_argument naming the rod, for one without twist or that is closed, and for
-  ///         a side that is not finite or is along the edge
+  /// @throws std::invalid_argument naming the rod, for one without twist, and for a side that
+  ///         is not finite or is along the edge
   void set_stiff_side(std::uint32_t rod, const Eigen::Vector3d& towards);
 };
 

@@ -73,9 +73,6 @@ void Rods::set_stiff_side(std::uint32_t rod, const Vector3d& towards) {
   if (directors.empty()) {
     throw std::invalid_argument(place + ": cross-sections have no side without twist");
   }
-  if (is_closed(rod)) {
-    throw std::invalid_argument(place + ": a closed rod must have none");
-  }
   const Vector2d side = with_context(place, [&] { return side_towards(*this, rod, towards); });
   stiff_sides.resize(positions.size());
   const RodSection& own = sections[rod];

@@ -200,7 +200,7 @@ void Joints::begin_step(const Rods& rods, const TimeStep& step) {
     weld.damping_share =
         options_.damping == nullptr ? 0.0 : options_.damping->relaxation_time() / step.length;
     if (weld.damping_share > 0.0) {
-      Vector3d strain = Vector3d::Zero();
+      Eigen::Vector4d strain = Eigen::Vector4d::Zero();
       step.for_each_earlier(rods, [&](const RodState& state, double weight) {
         strain += weight * WeldStrain(weld, rods, state).strain();
       });

@@ -1,5 +1,7 @@
 #include "src/sim/joint/make_welds.hpp"
 
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -7,6 +9,8 @@
 
 namespace fiber {
 
+using Eigen::Matrix2d;
+using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 namespace {
@@ -22,6 +26,7 @@ bool are_consecutive(const Rods& rods, const WeldedEdge& a, const WeldedEdge& b)
 
 struct HalfEdge {
   double bending;   // stiffness [J]
+  double stiff;     // to the stiff side [J]
   double twisting;  // stiffness [J]
 };
 
@@ -31,12 +36,71 @@ HalfEdge half_edge(const Rods& rods, const WeldedEdge& edge) {
   const RodSection& section = rods.sections[edge.rod];
   const SectionLengths& lengths = rods.section_lengths;
   if (lengths.empty()) {
-    return {section.bending_stiffness / length, section.twisting_stiffness / length};
+    return {section.bending_stiffness / length,
+            section.bending_ratio * section.bending_stiffness / length,
+            section.twisting_stiffness / length};
   }
   const bool is_end = edge.node == rods.first(edge.rod) || edge.node + 1 == rods.end(edge.rod);
   const double share = is_end ? 1.0 : length / rods.rest_length_at(edge.node);
   return {section.bending_stiffness / (share * lengths.bending[edge.node]),
+          section.bending_stiffness / (share * lengths.stiff[edge.node]),
           section.twisting_stiffness / (share * lengths.twisting[edge.node])};
+}
+
+bool has_stiff_side(const Rods& rods, const WeldedEdge& edge) {
+  return !rods.stiff_sides.empty() && rods.stiff_sides[edge.node].stiffness > 0.0;
+}
+
+/// What half an edge resists of turns to all sides of the first section of a weld, when its
+/// cross-section comes there on the shortest way.
+/// @param edge gone along as the first edge of the weld, or rather so than against it
+Matrix2d half_edge_spring(const Rods& rods, const WeldedEdge& edge, const WeldedEdge& first) {
+  const HalfEdge half = half_edge(rods, edge);
+  Matrix2d spring = half.bending * Matrix2d::Identity();
+  if (has_stiff_side(rods, edge)) {
+    const CrossSection own = cross_section(rods, edge.edge);
+    const CrossSection there = cross_section(rods, first.edge);
+    const Vector2d& side = rods.stiff_sides[edge.node].side;
+    const Vector3d tangent = first.sign * there.tangent;
+    const Vector3d carried =
+        transport(side.x() * own.first + side.y() * own.second, edge.sign * own.tangent, tangent);
+    const Vector2d towards(carried.dot(there.first), carried.dot(tangent.cross(there.first)));
+    spring += (half.stiff - half.bending) * towards * towards.transpose();
+  }
+  return spring;
+}
+
+/// Gives a weld the stiffnesses to both sides of springs that lead from all edges of its place to a
+/// common point, where any of them has a stiff side: K = A (Σ A)⁻¹ B of the springs of its two
+/// edges. Of more than two edges with stiff sides across each other it is the symmetric part.
+void set_stiff_side(const Rods& rods, const std::vector<WeldedEdge>& edges, Weld& weld) {
+  if (std::none_of(edges.begin(), edges.end(),
+                   [&](const WeldedEdge& edge) { return has_stiff_side(rods, edge); })) {
+    return;
+  }
+  const WeldedEdge& first = weld.edges[0];
+  const Vector3d along = first.sign * edge_direction(rods, first.edge).tangent;
+  Matrix2d sum = Matrix2d::Zero();
+  std::array<Matrix2d, 2> springs;
+  for (WeldedEdge edge : edges) {
+    const auto is_edge = [&](const WeldedEdge& other) {
+      return edge.edge == other.edge && edge.node == other.node;
+    };
+    const auto own = std::find_if(weld.edges.begin(), weld.edges.end(), is_edge);
+    edge.sign = own != weld.edges.end()                                    ? own->sign
+                : edge_direction(rods, edge.edge).tangent.dot(along) < 0.0 ? -1.0
+                                                                           : 1.0;
+    const Matrix2d spring = half_edge_spring(rods, edge, first);
+    sum += spring;
+    if (own != weld.edges.end()) {
+      springs[static_cast<std::size_t>(own - weld.edges.begin())] = spring;
+    }
+  }
+  const Matrix2d both = springs[0] * sum.inverse() * springs[1];
+  Eigen::SelfAdjointEigenSolver<Matrix2d> sides;
+  sides.computeDirect(0.5 * (both + both.transpose()));
+  weld.bending = std::max(0.0, sides.eigenvalues()[0]);
+  weld.stiff_side = {sides.eigenvalues()[1] - weld.bending, sides.eigenvectors().col(1)};
 }
 
 }  // namespace
@@ -86,7 +150,7 @@ std::vector<WeldedEdge> edges_at(const Rods& rods, const std::vector<PlacedNode>
 
 void add_welds(const Rods& rods, const std::vector<PlacedNode>& place, std::vector<Weld>& welds) {
   const std::vector<WeldedEdge> edges = edges_at(rods, place);
-  HalfEdge sum{0.0, 0.0};
+  HalfEdge sum{0.0, 0.0, 0.0};
   for (const WeldedEdge& edge : edges) {
     const HalfEdge half = half_edge(rods, edge);
     sum.bending += half.bending;
@@ -104,6 +168,7 @@ void add_welds(const Rods& rods, const std::vector<PlacedNode>& place, std::vect
       const HalfEdge b = half_edge(rods, edges[j]);
       weld.bending = a.bending * b.bending / sum.bending;
       weld.twisting = sum.twisting > 0.0 ? a.twisting * b.twisting / sum.twisting : 0.0;
+      set_stiff_side(rods, edges, weld);
       welds.push_back(weld);
     }
   }
@@ -122,6 +187,9 @@ Weld make_seam(const Rods& rods, std::uint32_t rod, bool has_bend) {
   seam.bending = has_bend ? section.bending_stiffness / length(lengths.bending) : 0.0;
   seam.twisting = section.twisting_stiffness / length(lengths.twisting);
   seam.is_seam = true;
+  if (has_bend) {
+    set_stiff_side(rods, {seam.edges[0], seam.edges[1]}, seam);
+  }
   return seam;
 }
 

@@ -11,6 +11,7 @@ namespace fiber {
 using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
+using Eigen::Vector4d;
 
 namespace {
 
@@ -94,12 +95,34 @@ void WeldStrain::strain_with_twist() {
   const Vector3d carried = transport(a.first, a.tangent, b.tangent);
   strain_[2] = nearest_turn(signed_angle(carried, b.first, b.tangent), weld_.twist);
   by_rotation_[2] = sum / std::max(folded, 1.0 + a.tangent.dot(b.tangent));
+  if (weld_.stiff_side.stiffness > 0.0) {
+    strain_to_stiff_side(turn.cosine);
+  }
+}
+
+/// The part of the residual along the mean of the directions in which both sections have the stiff
+/// side, which is of unit length at rest. Where the weld is straight by nature, that is StiffBend's
+/// strain.
+/// @param cosine of the natural turn
+void WeldStrain::strain_to_stiff_side(double cosine) {
+  const Vector2d& side = weld_.stiff_side.side;
+  const auto direction = [&](const Section& section) -> Vector3d {
+    return side.x() * section.first + side.y() * section.second;
+  };
+  const Vector2d& natural = weld_.natural_turn;
+  const double turning = natural.norm() > 0.0 ? natural.normalized().dot(side) : 0.0;
+  const double of_both = 1.0 - (1.0 - cosine) * turning * turning;  // product of both at rest
+  const double inverse = 1.0 / std::max(folded, std::sqrt(2.0 + 2.0 * of_both));
+  const Vector3d of_b = direction(sections_[1]);
+  const Vector3d mean = inverse * (direction(sections_[0]) + of_b);
+  strain_[3] = residual_.dot(mean);
+  by_rotation_[3] = levers_[1].cross(mean) + inverse * of_b.cross(residual_);
 }
 
 void WeldStrain::strain_without_twist() {
   const double size = turn_.norm();
   natural_size_ = 2.0 * std::sin(0.5 * std::min(weld_.natural_turn.norm(), M_PI));
-  strain_ = {size, 0.0, 0.0};
+  strain_ = {size, 0.0, 0.0, 0.0};
   direction_ = size > 0.0 ? Vector3d(turn_ / size) : sections_[0].tangent.unitOrthogonal();
 }
 
@@ -109,22 +132,24 @@ double WeldStrain::stored_energy() const {
     return 0.5 * weld_.bending * excess * excess;
   }
   return 0.5 * weld_.bending * residual_.squaredNorm() +
-         0.5 * weld_.twisting * strain_[2] * strain_[2];
+         0.5 * weld_.twisting * strain_[2] * strain_[2] +
+         0.5 * weld_.stiff_side.stiffness * strain_[3] * strain_[3];
 }
 
 double WeldStrain::damping_energy() const {
-  const Vector3d change = strain_ - weld_.earlier_strain;
+  const Vector4d change = strain_ - weld_.earlier_strain;
   if (!has_twist_) {
     return 0.5 * weld_.damping_share * weld_.bending * change[0] * change[0];
   }
   return 0.5 * weld_.damping_share *
-         (weld_.bending * change.head<2>().squaredNorm() + weld_.twisting * change[2] * change[2]);
+         (weld_.bending * change.head<2>().squaredNorm() + weld_.twisting * change[2] * change[2] +
+          weld_.stiff_side.stiffness * change[3] * change[3]);
 }
 
 /// The derivative of the energy by the rotation of each section; without twist by the tangents.
 std::array<Vector3d, 2> WeldStrain::slopes() const {
   const double damped = weld_.damping_share;
-  const Vector3d change = strain_ - weld_.earlier_strain;
+  const Vector4d change = strain_ - weld_.earlier_strain;
   if (!has_twist_) {
     const double moved = strain_[0] > 0.0 ? change[0] : 0.0;
     const Vector3d slope =
@@ -133,7 +158,8 @@ std::array<Vector3d, 2> WeldStrain::slopes() const {
   }
   const Vector3d between =
       damped * weld_.bending * (change[0] * by_rotation_[0] + change[1] * by_rotation_[1]) +
-      twisting_moment() * by_rotation_[2];
+      twisting_moment() * by_rotation_[2] +
+      weld_.stiff_side.stiffness * (strain_[3] + damped * change[3]) * by_rotation_[3];
   return {-weld_.bending * levers_[0].cross(residual_) - between,
           weld_.bending * levers_[1].cross(residual_) + between};
 }
@@ -149,12 +175,15 @@ WeldStrain::Derivatives WeldStrain::derivatives() const {
   if (has_twist_) {
     const double bending = std::sqrt((1.0 + damped) * weld_.bending);
     const double twisting = std::sqrt((1.0 + damped) * weld_.twisting);
+    const double to_stiff_side = std::sqrt((1.0 + damped) * weld_.stiff_side.stiffness);
     for (std::size_t i = 0; i < 2; ++i) {
       const double sign = i == 0 ? 1.0 : -1.0;
       found.rows[i].topRows<3>() =
           sign * bending * cross_matrix(levers_[i]) * sections_[i].by_unknowns;
       found.rows[i].row(3) =
           -sign * twisting * by_rotation_[2].transpose() * sections_[i].by_unknowns;
+      found.rows[i].row(4) =
+          -sign * to_stiff_side * by_rotation_[3].transpose() * sections_[i].by_unknowns;
     }
     return found;
   }

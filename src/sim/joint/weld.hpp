@@ -18,11 +18,16 @@ struct WeldedEdge {
 
 /// A spring between two edges that meet at a place. Gone along from the first to the second, the
 /// rod turns there by a natural angle, up to a right one where the weld was made. Its energy is
-/// that of Bend or of NaturalBend, of Twist and of Damping at a node inside of a rod.
+/// that of Bend or of NaturalBend, of AnisotropicBend, of Twist and of Damping at a node inside of
+/// a rod.
 struct Weld {
   std::array<WeldedEdge, 2> edges;
   double bending = 0.0;   ///< stiffness [J]
   double twisting = 0.0;  ///< stiffness [J]
+
+  /// With twist: what bending takes beyond that towards a side, by the first edge's material
+  /// directions.
+  StiffSide stiff_side;
 
   /// The natural turn by its angle [rad] and side: with twist along the first edge's material
   /// directions, without as (angle, 0).
@@ -39,7 +44,7 @@ struct Weld {
 
   // Of the step.
   double damping_share = 0.0;                                ///< of the stiffnesses
-  Eigen::Vector3d earlier_strain = Eigen::Vector3d::Zero();  ///< that rates are measured from
+  Eigen::Vector4d earlier_strain = Eigen::Vector4d::Zero();  ///< that rates are measured from
 };
 
 /// Derivatives by the unknowns of an edge: its first node, with twist its angle, its second node.
@@ -50,7 +55,7 @@ using ByEdge = Eigen::Matrix<double, rows, 7>;
 /// How a weld is strained where its edges are now, and what follows from that.
 class WeldStrain {
  public:
-  static constexpr int max_rows = 4;
+  static constexpr int max_rows = 5;
 
   /// @param state of the rods, whose directors are those of the step's beginning
   WeldStrain(const Weld& weld, const Rods& rods, const RodState& state);
@@ -59,8 +64,8 @@ class WeldStrain {
   double stored_energy() const;
 
   /// Without twist the size of the turn; with twist its components along the material directions,
-  /// and the twist.
-  const Eigen::Vector3d& strain() const { return strain_; }
+  /// the twist, and how much further than by nature it turns to the stiff side.
+  const Eigen::Vector4d& strain() const { return strain_; }
 
   /// With twist: from the untwisted section [rad].
   double twist() const { return strain_[2]; }
@@ -83,8 +88,6 @@ class WeldStrain {
   /// With twist: the moment with which the second edge twists the first one [N m].
   double twisting_moment() const;
 
-  int row_count() const { return has_twist_ ? max_rows : max_rows - 1; }
-
  private:
   struct Section {
     Eigen::Vector3d tangent;  // signed
@@ -97,13 +100,14 @@ class WeldStrain {
   double damping_energy() const;
   Section section(const Rods& rods, const RodState& state, std::size_t which) const;
   void strain_with_twist();
+  void strain_to_stiff_side(double cosine);
   void strain_without_twist();
   std::array<Eigen::Vector3d, 2> slopes() const;
 
   const Weld& weld_;
   bool has_twist_;
   std::array<Section, 2> sections_;
-  Eigen::Vector3d strain_ = Eigen::Vector3d::Zero();
+  Eigen::Vector4d strain_ = Eigen::Vector4d::Zero();
   Eigen::Vector3d turn_ = Eigen::Vector3d::Zero();  // from the first tangent to the second
 
   // With twist, as in NaturalBend: the residual, and what it changes by for each section's
@@ -111,7 +115,7 @@ class WeldStrain {
   double weight_ = 0.5;
   Eigen::Vector3d residual_ = Eigen::Vector3d::Zero();
   std::array<Eigen::Vector3d, 2> levers_;
-  std::array<Eigen::Vector3d, 3> by_rotation_;
+  std::array<Eigen::Vector3d, 4> by_rotation_{};
 
   // Without twist.
   Eigen::Vector3d direction_ = Eigen::Vector3d::Zero();

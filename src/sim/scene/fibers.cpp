@@ -135,9 +135,6 @@ void read_stiff_side(const YamlField& entry, FiberEntry& fiber) {
     return;
   }
   const YamlField field = entry.get("stiff_towards");
-  if (fiber.is_closed) {
-    field.refuse("absent, as a bending_ratio above 1 is, where the fibre is closed");
-  }
   fiber.stiff_side = SimStiffSide{field.vector(), field.statement()};
 }
 

@@ -119,6 +119,41 @@ TEST_F(SimSceneTest, FlatCablesAreDampedByBothStiffnesses) {
   EXPECT_NEAR(flat, round, 0.02 * std::abs(undamped - round));
 }
 
+/// A flat cable bends as the whole one where it is cut and welded, and where it is a closed fibre.
+TEST_F(SimSceneTest, FlatCablesAreWeldedAndClosed) {
+  const auto fiber = [](const std::string& name, const std::string& points,
+                        const std::string& keys) {
+    return "  - {name: " + name + ", shape: {polyline: " + points +
+           "}, radius: 0.01, material: {preset: rope, bending_ratio: 9}, stiff_towards: [0, 0, "
+           "1], " +
+           keys + "}\n";
+  };
+  const auto sinks = [this](const std::string& fibers, const std::string& effects) {
+    SimScene scene = read("fibers:\n" + fibers +
+                          "effects: [gravity, stretch, bend, twist, {attachment: [{fiber: cable, "
+                          "node: first, kind: clamp, tangent: [1, 0, 0]}]}" +
+                          effects + "]\n");
+    for (int i = 0; i < 10; ++i) {
+      scene.advance();
+    }
+    return -scene.stepper->rods().positions.back().z();
+  };
+  const double whole = sinks(fiber("cable", "[[0, 0, 0], [1, 0, 0]]", "segments: 10"), "");
+  const double welded =
+      sinks(fiber("cable", "[[0, 0, 0], [0.4, 0, 0]]", "segments: 4") +
+                fiber("rest", "[[0.4, 0, 0], [1, 0, 0]]", "segments: 6"),
+            ", {joint: [{kind: weld, nodes: [{fiber: cable, node: last}, {fiber: rest}]}]}");
+  EXPECT_GT(whole, 1e-3);
+  EXPECT_NEAR(welded, whole, 1e-4 * whole);
+  SimScene belt = read(
+      "fibers:\n" +
+      fiber("belt", "[[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]", "closed: true, segments: 12") +
+      "effects: [gravity, stretch, bend, twist]\n");
+  belt.advance();
+  EXPECT_GT(belt.stepper->rods().stiff_sides[12].stiffness, 0.0);
+  EXPECT_EQ(belt.stepper->report().unbalanced, 0U);
+}
+
 TEST_F(SimSceneTest, StiffSidesThatCannotBeAreErrors) {
   const std::string flat = "{preset: rope, bending_ratio: 5}";
   EXPECT_EQ(error(of_material(flat, "", "[stretch, bend, twist]")),
