@@ -156,6 +156,10 @@ void resolve(Rods& rods, double coefficient, std::vector<Impact>& impacts) {
       const double parting = impact.pressure + (impact.separation - speed) / sides.along;
       const double kept = impact.pressure + (impact.max_separation - speed) / sides.along;
       const double pressure = std::max(-impact.returnable, std::clamp(0.0, parting, kept));
+      if (pressure == 0.0 && impact.pressure == 0.0 && impact.friction == Vector3d::Zero()) {
+        continue;  // most contacts of an island that is struck: there is no impulse, and is none
+                   // now
+      }
       on_both(push, (pressure - impact.pressure) * impact.normal);
       const double max_friction = coefficient * std::abs(pressure);
       Vector3d friction = impact.friction - slip_velocity(impact, rods) / sides.across;
