@@ -69,6 +69,74 @@ TEST_F(CloudTest, AllCellsGoWhenNoCloudComesForAsLongAsTheDecay) {
   ASSERT_TRUE(wait_for([&] { return cells().empty(); }));
 }
 
+TEST_F(CloudTest, WhereAllCellsHaveDecayedIsUnknown) {
+  own.setParam("cloud/resolution", 1.0);
+  own.setParam("cloud/decay", 0.2);
+  own.setParam("cloud/timeout", 100.0);
+  start_with_topic();
+  publish({{0.5, 0.5, 0.5}});
+  ASSERT_TRUE(wait_for([&] { return !cells().empty(); }));
+  EXPECT_EQ(unknown(), std::vector<std::string>{});
+  ASSERT_TRUE(wait_for([&] { return cells().empty(); }));
+  EXPECT_EQ(unknown(), (std::vector<std::string>{
+                           "cloud: all cells have decayed: no new cloud for 0.2 s (cloud/decay)"}));
+  publish({{0.5, 0.5, 0.5}});
+  ASSERT_TRUE(wait_for([&] { return unknown().empty(); }));
+}
+
+/// The same stamp again and again is of a camera that has frozen.
+TEST_F(CloudTest, ACloudThatRepeatsItselfIsNoNewOne) {
+  own.setParam("cloud/timeout", 0.3);
+  start_with_topic();
+  const ros::Time stamp = ros::Time::now();
+  publish({{0.5, 0.5, 0.5}}, "world", stamp);
+  ASSERT_TRUE(wait_for([&] { return unknown().empty(); }));
+  ASSERT_TRUE(wait_for([&] {
+    publish({{0.5, 0.5, 0.5}}, "world", stamp);
+    return !unknown().empty();
+  }));
+  EXPECT_EQ(unknown().front(), "cloud: no new cloud for 0.3 s (cloud/timeout)");
+  EXPECT_FALSE(cells().empty()) << "what was seen last is there still";
+  publish({{0.5, 0.5, 0.5}}, "world", stamp + ros::Duration(0.1));
+  EXPECT_TRUE(wait_for([&] { return unknown().empty(); }));
+}
+
+TEST_F(CloudTest, IsForgottenWhenTimeGoesBack) {
+  own.setParam("cloud/timeout", 100.0);
+  start_with_topic();
+  const ros::Time begin = ros::Time::now();
+  ros::Time::setNow(begin);
+  publish({{0.5, 0.5, 0.5}});
+  ASSERT_TRUE(wait_for([&] { return !cells().empty(); }));
+  ros::Time::setNow(begin - ros::Duration(1000.0));
+  EXPECT_TRUE(inputs->update(ros::Time::now()));
+  EXPECT_TRUE(cells().empty());
+  EXPECT_EQ(unknown(), (std::vector<std::string>{"cloud: no cloud yet"}));
+  publish({{1.5, 0.5, 0.5}});
+  EXPECT_TRUE(wait_for([&] { return !cells().empty(); }));
+  EXPECT_EQ(unknown(), std::vector<std::string>{});
+  ros::Time::init();  // the clock of the machine again
+}
+
+TEST_F(CloudTest, OneThatCannotBeUsedDoesNotChooseTheFixedFrame) {
+  fiber_proximity_ros::FixedFrame any("", node);
+  own.setParam("cloud", true);
+  inputs = std::make_unique<EnvironmentInputs>(node, own, options(), any, [] {});
+  publisher_ = advertise<PointCloud2>("cloud");
+  PointCloud2 bad = test_messages::point_cloud2(test_messages::header("wrold"), {{1, 1, 1}});
+  bad.fields[0].name = "u";
+  publisher_.publish(bad);
+  ASSERT_TRUE(wait_for([&] { return statistics_of("cloud").refused == 1; }));
+  Obstacle box = ball("ball", 0.0, "wrold");
+  box.primitives[0].dimensions[0] = -1.0;
+  EXPECT_NE(apply({box}), "");
+  EXPECT_EQ(any.name(), "");
+  publish({{0.5, 0.5, 0.5}});
+  EXPECT_TRUE(wait_for([&] { return !cells().empty(); }));
+  EXPECT_EQ(any.name(), "world");
+  inputs.reset();  // before its frame
+}
+
 TEST_F(CloudTest, ABadCloudChangesNothing) {
   own.setParam("cloud", true);
   start_with_topic();

@@ -158,6 +158,73 @@ TEST_F(ObstacleMarkersTest, ALifetimeEnds) {
   EXPECT_TRUE(wait_for([&] { return places() == Places{{"bodies/1", 0.0}}; }));
 }
 
+TEST_F(ObstacleMarkersTest, ALifetimeGoesOnWhenTimeGoesBack) {
+  start_with_topic();
+  const ros::Time begin = ros::Time::now();
+  ros::Time::setNow(begin);
+  Marker brief = marker(Marker::CUBE, 1);
+  brief.lifetime = ros::Duration(2.0);
+  publish({brief});
+  const auto is_there_at = [&](double seconds) {
+    ros::Time::setNow(begin + ros::Duration(seconds));
+    inputs->update(ros::Time::now());
+    return places().size() == 1;
+  };
+  EXPECT_TRUE(is_there_at(1.9));
+  EXPECT_TRUE(is_there_at(-1000.0));
+  EXPECT_TRUE(is_there_at(-999.95));
+  EXPECT_FALSE(is_there_at(-999.85));
+  ros::Time::init();  // the clock of the machine again
+}
+
+/// rviz has them move with it; what does not would be told to be where it is not.
+TEST_F(ObstacleMarkersTest, MarkersThatFollowAFrameAreRefused) {
+  start_with_topic();
+  static_transforms.sendTransform(transform("hand", 3.0));
+  Marker locked = marker(Marker::CUBE, 1);
+  locked.frame_locked = 1;
+  publish({locked});
+  EXPECT_EQ(places().size(), 1U) << "the fixed frame stays where it is";
+  locked.id = 2;
+  locked.header.frame_id = "hand";
+  publish({locked});
+  EXPECT_EQ(places().size(), 1U);
+  EXPECT_EQ(statistics().last_error,
+            "marker 'bodies/2': frame_locked is true in frame 'hand', it must be false there: "
+            "obstacles do not follow a frame");
+  EXPECT_EQ(unknown().size(), 1U);
+}
+
+TEST_F(ObstacleMarkersTest, DoNotTakeThePlaceOfOthersObstacles) {
+  own.setParam("obstacle_markers",
+               std::vector<std::string>{own.resolveName("bodies"), own.resolveName("others")});
+  start();
+  publisher_ = advertise<MarkerArray>("bodies");
+  const ros::Publisher others = advertise<MarkerArray>("others");
+  EXPECT_EQ(apply({ball("bodies/7", 7.0)}), "");
+  publish({marker(Marker::CUBE, 1, 1.0)});
+  MarkerArray message;
+  message.markers = {marker(Marker::CUBE, 1, 5.0)};
+  others.publish(message);
+  ASSERT_TRUE(wait_for([&] { return statistics_of("others").refused == 1; }));
+  EXPECT_EQ(statistics_of("others").last_error, "obstacle 'bodies/1' is there already, from '" +
+                                                    own.resolveName("bodies") +
+                                                    "': its name must be another one");
+  publish({marker(Marker::CUBE, 7, 5.0)});
+  EXPECT_EQ(statistics().last_error,
+            "obstacle 'bodies/7' is there already, from the scene or ~obstacles: its name must be "
+            "another one");
+  EXPECT_NE(apply({ball("bodies/1", 5.0)}), "");
+  EXPECT_EQ(places(), (Places{{"bodies/1", 1.0}, {"bodies/7", 7.0}}));
+  // Each deletes its own only.
+  message.markers = {action(Marker::DELETEALL, 0)};
+  others.publish(message);
+  ASSERT_TRUE(wait_for([&] { return statistics_of("others").received == 2; }));
+  EXPECT_EQ(places().size(), 2U);
+  publish({action(Marker::DELETEALL, 0)});
+  EXPECT_EQ(places(), (Places{{"bodies/7", 7.0}}));
+}
+
 TEST_F(ObstacleMarkersTest, ABadMarkerIsNamedAndItsMessageChangesNothing) {
   start_with_topic();
   std::uint64_t refused = 0;

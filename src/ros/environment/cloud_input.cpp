@@ -81,7 +81,12 @@ std::optional<Unknown> CloudInput::unknown(const ros::Time& now) const {
   }
   if (required_ && timeout_ > 0.0 && !newest_.is_latched && (now - last_use_).toSec() > timeout_) {
     std::ostringstream why;
-    why << "no cloud for " << timeout_ << " s (cloud/timeout)";
+    why << "no new cloud for " << timeout_ << " s (cloud/timeout)";
+    return because(why.str());
+  }
+  if (required_ && has_decayed(now)) {
+    std::ostringstream why;
+    why << "all cells have decayed: no new cloud for " << decay_ << " s (cloud/decay)";
     return because(why.str());
   }
   const CloudCounts& counts = newest_.counts;
@@ -114,7 +119,11 @@ bool CloudInput::place_waiting(FixedFrame& frame) {
   const ros::Time stamp = header.stamp.isZero() ? now : header.stamp;
   try {
     validate_stamp(stamp, now, max_stamp_ahead_);
-    frame.adopt(header.frame_id);
+    if (frame.name().empty()) {  // which one that cannot be used must not choose
+      FiberBuffer buffer;
+      to_chains(*waiting_->message, buffer);
+      frame.adopt(header.frame_id);
+    }
     MakeResult make = [this, cloud = *waiting_, pose = frame.transform_from(header), stamp] {
       return use(cloud, pose, stamp);
     };
@@ -144,13 +153,16 @@ CloudInput::Result CloudInput::use(const Cloud& cloud, const Eigen::Isometry3d& 
 }
 
 bool CloudInput::take_result(fiber::World& world) {
+  const ros::Time before = newest_.stamp;
   try {
     newest_ = std::exchange(in_work_, std::nullopt)->get();
   } catch (const std::exception& error) {
     log_.refuse(error.what());
     return false;
   }
-  last_use_ = ros::Time::now();
+  if (newest_.stamp != before) {  // the same again is of a camera that has frozen
+    last_use_ = ros::Time::now();
+  }
   log_.accept();
   warn_if_unused();
   if (newest_.octree == nullptr) {
@@ -174,9 +186,20 @@ void CloudInput::warn_if_unused() const {
   }
 }
 
+bool CloudInput::has_decayed(const ros::Time& now) const {
+  return decay_ > 0.0 && !newest_.stamp.isZero() && (now - newest_.stamp).toSec() > decay_;
+}
+
 bool CloudInput::remove_decayed(const ros::Time& now, fiber::World& world) {
-  return decay_ > 0.0 && !newest_.stamp.isZero() && (now - newest_.stamp).toSec() > decay_ &&
-         remove_cloud(world);
+  return has_decayed(now) && remove_cloud(world);
+}
+
+bool CloudInput::reset(const ros::Time& now, fiber::World& world) {
+  placed_.reset();
+  in_work_.reset();
+  newest_ = {};
+  last_use_ = now;
+  return remove_cloud(world);
 }
 
 }  // namespace fiber_proximity_ros

@@ -41,12 +41,16 @@ class CloudInput {
   /// @returns true if the world changed
   bool update(const ros::Time& now, FixedFrame& frame, fiber::World& world);
 
+  /// Forgets all clouds, as time has gone back.
+  /// @returns true if the world changed
+  bool reset(const ros::Time& now, fiber::World& world);
+
   /// True if update() should be called again soon.
   bool is_waiting() const { return waiting_ || in_work_; }
 
-  /// Tells why the cloud is not known: no cloud has come yet, none has for the timeout though its
-  /// publisher does not keep its last one for others (a latched topic), or points were beyond the
-  /// octree.
+  /// Tells why the cloud is not known: no cloud has come yet, none with a new stamp has for the
+  /// timeout though its publisher does not keep its last one for others (a latched topic), all of
+  /// it has decayed, or points were beyond the octree.
   std::optional<Unknown> unknown(const ros::Time& now) const;
 
   /// Counts of messages, and of the points of the newest cloud.
@@ -75,6 +79,7 @@ class CloudInput {
   Result use(const Cloud& cloud, const Eigen::Isometry3d& pose, const ros::Time& stamp);
   bool take_result(fiber::World& world);
   void warn_if_unused() const;
+  bool has_decayed(const ros::Time& now) const;
   bool remove_decayed(const ros::Time& now, fiber::World& world);
 
   double resolution_;

@@ -38,7 +38,7 @@ void check_stamps(Change& change, double max_ahead) {
 struct EnvironmentInputs::MarkerSource {
   MarkerSource(const MarkerTopic& from, const MeshLoader& meshes, ObstacleSet& set,
                FixedFrame& frame, OwedChanges& owed)
-      : obstacles(from.topic, meshes, set),
+      : obstacles(from.topic, meshes, set, frame),
         topic(from.topic,
               from.is_array ? "visualization_msgs/MarkerArray" : "visualization_msgs/Marker",
               from.required, from.topic, owed),
@@ -97,7 +97,8 @@ EnvironmentInputs::~EnvironmentInputs() {
 
 bool EnvironmentInputs::update(const ros::Time& stamp) {
   const ros::Time now = ros::Time::now();
-  bool changed = std::exchange(was_changed_, false);
+  bool changed = watch_time(now);
+  changed = std::exchange(was_changed_, false) || changed;
   changed = scene_.update(obstacles_, frame_) || changed;
   changed = changes_.update() || changed;
   for (const std::unique_ptr<MarkerSource>& source : markers_) {
@@ -111,6 +112,21 @@ bool EnvironmentInputs::update(const ros::Time& stamp) {
     return frame_.latest_pose(frame, time);
   };
   return robot_.update(stamp, find_pose, world_, tracks_) || changed;
+}
+
+/// Where time goes back, as a bag that begins again has it, clouds are forgotten, and lifetimes of
+/// markers go on. InputSet tells the log.
+/// @returns true if the world changed
+bool EnvironmentInputs::watch_time(const ros::Time& now) {
+  bool changed = false;
+  if (now < last_time_) {
+    changed = cloud_ != nullptr && cloud_->reset(now, world_);
+    for (const std::unique_ptr<MarkerSource>& source : markers_) {
+      source->obstacles.set_back(last_time_ - now);
+    }
+  }
+  last_time_ = now;
+  return changed;
 }
 
 bool EnvironmentInputs::is_waiting() const {

@@ -95,6 +95,7 @@ class EnvironmentInputs {
  private:
   struct MarkerSource;  // a topic of markers
 
+  bool watch_time(const ros::Time& now);
   void subscribe_to_markers(ros::NodeHandle node, const EnvironmentOptions& options);
   void receive_obstacles(const fiber_proximity::ObstacleArray::ConstPtr& message);
   void receive_markers(std::shared_ptr<const MarkerObstacles::Markers> markers,
@@ -123,6 +124,7 @@ class EnvironmentInputs {
   bool has_robot_;
   bool is_configured_;
   bool was_changed_ = false;
+  ros::Time last_time_;
 
   // Last: their threads and callbacks use all of the above.
   Worker mesh_builder_;

@@ -2,6 +2,7 @@
 
 #include <ros/console.h>
 
+#include <algorithm>
 #include <memory>
 #include <stdexcept>
 
@@ -89,6 +90,12 @@ bool is_body(const Marker& marker) {
   return types.count(marker.type) > 0;
 }
 
+/// The making of a change that cannot be.
+Prepared<Change::Apply> refused(const std::string& problem) {
+  return Prepared<Change::Apply>(
+      [problem]() -> Change::Apply { throw std::invalid_argument(problem); });
+}
+
 }  // namespace
 
 Change MarkerObstacles::change_of(std::shared_ptr<const Markers> markers, const ros::Time& now,
@@ -104,6 +111,13 @@ Change MarkerObstacles::change_of(std::shared_ptr<const Markers> markers, const 
     } else if (is_body(marker)) {
       touched.add(marker_name(marker));
       frames[i] = {"obstacle " + fiber::quote(marker_name(marker)), marker.header};
+      if (marker.action == Marker::ADD && follows_frame(marker)) {
+        const std::string problem = "marker " + fiber::quote(marker_name(marker)) +
+                                    ": frame_locked is true in frame " +
+                                    fiber::quote(marker.header.frame_id) +
+                                    ", it must be false there: obstacles do not follow a frame";
+        return {std::move(touched), {}, refused(problem), patience, {}, {}};
+      }
     }
   }
   const bool is_large = this->is_large(*markers);
@@ -117,6 +131,11 @@ Change MarkerObstacles::change_of(std::shared_ptr<const Markers> markers, const 
   return {std::move(touched), std::move(frames), std::move(apply), patience, {}, {}};
 }
 
+/// Whether rviz would have a marker follow a frame that may move.
+bool MarkerObstacles::follows_frame(const Marker& marker) const {
+  return marker.frame_locked != 0 && tf2_name(marker.header.frame_id) != frame_.name();
+}
+
 bool MarkerObstacles::expire(const ros::Time& now) {
   std::vector<fiber::ObjectChange> removals;
   for (const auto& [name, expiry] : present()) {
@@ -126,6 +145,15 @@ bool MarkerObstacles::expire(const ros::Time& now) {
   }
   obstacles_.apply(removals, std::vector<ros::Time>(removals.size()));
   return !removals.empty();
+}
+
+void MarkerObstacles::set_back(const ros::Duration& by) {
+  for (auto& [name, expiry] : names_) {
+    if (!expiry.isZero()) {
+      // Zero would be never.
+      expiry = std::max(ros::Time(0, 1), ros::Time(std::max(0.0, expiry.toSec() - by.toSec())));
+    }
+  }
 }
 
 std::vector<MarkerObstacles::Step> MarkerObstacles::read(const Markers& markers,
@@ -203,7 +231,8 @@ bool MarkerObstacles::is_large(const Markers& markers) const {
         !find_mesh(marker)) {
       return true;
     }
-    triangles += marker.type == Marker::TRIANGLE_LIST ? marker.points.size() / 3 : 0;
+    triangles +=
+        marker.type == Marker::TRIANGLE_LIST ? marker.points.size() / 3 : marker.points.size();
   }
   return is_large_mesh(triangles);
 }
@@ -223,6 +252,9 @@ fiber::Shape MarkerObstacles::mesh_of(const Marker& marker) {
   }
   fiber::Shape mesh = meshes_(marker.mesh_resource, to_vector(marker.scale));
   const std::lock_guard<std::mutex> lock(mutex_);
+  if (read_meshes_.size() >= max_read_meshes) {
+    read_meshes_.clear();
+  }
   read_meshes_.emplace(key_of(marker), mesh);
   return mesh;
 }
@@ -244,14 +276,14 @@ void MarkerObstacles::apply(const std::vector<Step>& steps, const Change::Poses&
       changes.push_back(step.change);
     }
   }
-  obstacles_.apply(changes, std::vector<ros::Time>(changes.size()));
+  obstacles_.apply(changes, std::vector<ros::Time>(changes.size()), {}, topic_);
   names_ = std::move(names);
 }
 
 MarkerObstacles::Names MarkerObstacles::present() const {
   Names names;
   for (const auto& [name, expiry] : names_) {
-    if (obstacles_.has(name)) {
+    if (obstacles_.has(name, topic_)) {
       names.emplace(name, expiry);
     }
   }

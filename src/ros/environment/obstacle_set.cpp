@@ -3,6 +3,7 @@
 #include <ros/console.h>
 
 #include <exception>
+#include <stdexcept>
 #include <utility>
 
 #include "src/ros/environment/obstacle_change.hpp"
@@ -28,22 +29,31 @@ std::size_t triangle_count(const Obstacles& obstacles) {
 }  // namespace
 
 void ObstacleSet::apply(const Changes& changes, const std::vector<ros::Time>& stamps,
-                        const std::set<std::string>& cancelled) {
+                        const std::set<std::string>& cancelled, const std::string& owner) {
   const ros::Time now = ros::Time::now();
-  std::set<std::string> names = names_;
+  std::map<std::string, std::string> owners = owners_;
   Changes steps;
   std::vector<ros::Time> step_stamps;
   for (std::size_t i = 0; i < changes.size(); ++i) {
     const fiber::ObjectChange& change = changes[i];
     const std::string& name = change.object.name;
-    if (change.operation != Operation::REMOVE) {
+    if (change.operation == Operation::ADD) {
+      const auto [there, is_new] = owners.try_emplace(name, owner);
+      if (!is_new && there->second != owner) {
+        throw std::invalid_argument(
+            "obstacle " + fiber::quote(name) + " is there already, from " +
+            (there->second.empty() ? "the scene or ~obstacles" : fiber::quote(there->second)) +
+            ": its name must be another one");
+      }
       steps.push_back(change);
-      names.insert(name);
+    } else if (change.operation != Operation::REMOVE) {
+      steps.push_back(change);
+      owners.try_emplace(name, owner);
     } else if (name.empty()) {
-      for (const std::string& present : std::exchange(names, {})) {
+      for (const auto& [present, its_owner] : std::exchange(owners, {})) {
         steps.push_back(removal_of(present));
       }
-    } else if (names.erase(name) > 0 || cancelled.count(name) == 0) {
+    } else if (owners.erase(name) > 0 || cancelled.count(name) == 0) {
       steps.push_back(change);
     }
     step_stamps.resize(steps.size(), stamps[i].isZero() ? now : stamps[i]);
@@ -53,7 +63,7 @@ void ObstacleSet::apply(const Changes& changes, const std::vector<ros::Time>& st
   for (std::size_t i = 0; i < steps.size(); ++i) {
     hooks_.take(steps[i], step_stamps[i]);
   }
-  names_ = std::move(names);
+  owners_ = std::move(owners);
 }
 
 Change ObstacleSet::change_of(std::shared_ptr<const Obstacles> obstacles, double patience,
@@ -62,12 +72,16 @@ Change ObstacleSet::change_of(std::shared_ptr<const Obstacles> obstacles, double
   std::vector<FramedName> frames;
   for (const fiber_proximity::Obstacle& obstacle : *obstacles) {
     const bool removes = obstacle.operation == fiber_proximity::Obstacle::REMOVE;
-    if (!removes) {
-      touched.add(obstacle.id);
-    } else if (obstacle.id.empty()) {
+    if (removes && obstacle.id.empty()) {
       touched.remove_all();
-    } else {
+    } else if (removes) {
       touched.remove(obstacle.id);
+    } else if (obstacle.operation == fiber_proximity::Obstacle::MOVE) {
+      touched.move(obstacle.id);
+    } else if (obstacle.operation == fiber_proximity::Obstacle::APPEND) {
+      touched.append(obstacle.id);
+    } else {
+      touched.add(obstacle.id);
     }
     frames.push_back(
         {"obstacle " + fiber::quote(obstacle.id), removes ? std_msgs::Header() : obstacle.header});

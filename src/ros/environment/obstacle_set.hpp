@@ -3,6 +3,7 @@
 #include <ros/time.h>
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <set>
 #include <string>
@@ -45,21 +46,30 @@ class ObstacleSet {
   /// of all obstacles.
   /// @param stamps    when objects were there, by change; zero: now
   /// @param cancelled names that a REMOVE may have even if there is no such obstacle
-  /// @throws std::invalid_argument as fiber::World::apply, and for what is checked
+  /// @param owner     a topic that adds obstacles of its own; empty: the scene, ~obstacles and
+  ///                  ~apply_obstacles, which share theirs
+  /// @throws std::invalid_argument as fiber::World::apply, for what is checked, and where an
+  ///         obstacle would take the place of another owner's
   void apply(const std::vector<fiber::ObjectChange>& changes, const std::vector<ros::Time>& stamps,
-             const std::set<std::string>& cancelled = {});
+             const std::set<std::string>& cancelled = {}, const std::string& owner = "");
 
   /// Makes a change of these obstacles; large meshes are built by the worker.
   /// @param patience see Change
   Change change_of(std::shared_ptr<const std::vector<fiber_proximity::Obstacle>> obstacles,
                    double patience, Worker& worker);
 
-  bool has(const std::string& name) const { return names_.count(name) != 0; }
+  bool has(const std::string& name) const { return owners_.count(name) != 0; }
+
+  /// Whether there is an obstacle of a name that the owner has added.
+  bool has(const std::string& name, const std::string& owner) const {
+    const auto found = owners_.find(name);
+    return found != owners_.end() && found->second == owner;
+  }
 
  private:
   fiber::World& world_;
   ChangeHooks hooks_;
-  std::set<std::string> names_;
+  std::map<std::string, std::string> owners_;  // by the obstacle's name
 };
 
 /// Obstacles of the scene, each of which is unknown until tf knows its frame, however long that

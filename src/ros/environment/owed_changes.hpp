@@ -13,7 +13,8 @@ namespace fiber_proximity_ros {
 class TouchedObjects;
 
 /// Obstacles that somebody has sent and that were refused: what is around the fibres is not known
-/// until a later change of the same obstacle is made, or it is removed.
+/// until the obstacle is added anew or removed. A place that was refused is known once the obstacle
+/// has been moved.
 class OwedChanges {
  public:
   /// [obstacle] Of more than these only the topics are known; they are owed until all obstacles of
@@ -34,7 +35,12 @@ class OwedChanges {
   std::vector<Unknown> unknown() const;
 
  private:
-  std::map<std::string, Unknown> owed_;  // by what is unknown
+  struct Owed {
+    Unknown unknown;
+    bool is_of_place;  // and of nothing else
+  };
+
+  std::map<std::string, Owed> owed_;  // by what is unknown
 };
 
 }  // namespace fiber_proximity_ros

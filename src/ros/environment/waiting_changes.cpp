@@ -10,9 +10,23 @@ namespace fiber_proximity_ros {
 void TouchedObjects::add(const std::string& name) {
   names_.insert(name);
   wanted_.insert(name);
+  made_anew_.insert(name);
+}
+
+void TouchedObjects::append(const std::string& name) {
+  names_.insert(name);
+  wanted_.insert(name);
+  appended_.insert(name);
+}
+
+void TouchedObjects::move(const std::string& name) {
+  names_.insert(name);
+  wanted_.insert(name);
+  moved_.insert(name);
 }
 
 void TouchedObjects::remove(const std::string& name) {
+  made_anew_.insert(name);
   wanted_.erase(name);
   if (names_.insert(name).second) {
     removed_first_.insert(name);
@@ -45,13 +59,13 @@ Eigen::Isometry3d locate(const FramedName& thing, FixedFrame& frame) {
   return naming(thing.name, [&] { return frame.transform_from(header); });
 }
 
-WaitingChanges::Waiting::Waiting(Change received, FixedFrame& frame) : change(std::move(received)) {
+WaitingChanges::Waiting::Waiting(Change received) : change(std::move(received)) {
   poses.reserve(change.frames.size());
-  find_poses(frame);
 }
 
+/// What is malformed does not choose the fixed frame.
 void WaitingChanges::Waiting::find_poses(FixedFrame& frame) {
-  while (!is_placed()) {
+  while (!is_placed() && (apply || !frame.name().empty())) {
     const FramedName& next = change.frames[poses.size()];
     if (!missing.empty() && !frame.knows(next.header)) {
       return;  // the same as before, without the cost of an exception
@@ -96,7 +110,8 @@ void WaitingChanges::Blocked::add(const TouchedObjects& touched, const std::stri
 }
 
 void WaitingChanges::receive(Change change) {
-  waiting_.emplace_back(std::move(change), frame_);
+  waiting_.emplace_back(std::move(change));
+  waiting_.back().find_poses(frame_);
   if (waiting_.size() > max_waiting) {
     refuse(waiting_.back(), std::to_string(max_waiting) + " changes are waiting already");
     waiting_.pop_back();
@@ -145,11 +160,11 @@ bool WaitingChanges::update() {
 
 bool WaitingChanges::advance(Queue::iterator place, const std::string* blocked, bool& applied) {
   Waiting& waiting = *place;
-  waiting.find_poses(frame_);
   try {
     if (!waiting.apply && waiting.change.apply.is_ready()) {
       waiting.apply = waiting.change.apply.get();
     }
+    waiting.find_poses(frame_);
     if (waiting.is_placed() && waiting.apply && make(place, blocked == nullptr)) {
       applied = true;
       waiting.change.on_end(Change::End::APPLIED, "");

@@ -26,6 +26,8 @@ class TouchedObjects {
  public:
   /// Notes the next step of the change.
   void add(const std::string& name);
+  void append(const std::string& name);
+  void move(const std::string& name);
   void remove(const std::string& name);
   void remove_all();
 
@@ -34,6 +36,15 @@ class TouchedObjects {
 
   /// Whether the object of a name is to be there after the change.
   bool wants(const std::string& name) const { return wanted_.count(name) > 0; }
+
+  /// Whether nothing is left of what the object was before.
+  bool makes_anew(const std::string& name) const { return made_anew_.count(name) > 0; }
+
+  /// Whether its place is all that changes.
+  bool only_moves(const std::string& name) const {
+    return moved_.count(name) > 0 && !makes_anew(name) && appended_.count(name) == 0;
+  }
+  bool moves(const std::string& name) const { return moved_.count(name) > 0; }
 
   /// Whether it could undo another change.
   bool begins_with_removal() const { return removes_everything_first_ || !removed_first_.empty(); }
@@ -48,6 +59,9 @@ class TouchedObjects {
   std::set<std::string> names_;
   std::set<std::string> wanted_;         // of these names
   std::set<std::string> removed_first_;  // the same
+  std::set<std::string> made_anew_;      // added or removed
+  std::set<std::string> appended_;
+  std::set<std::string> moved_;
   bool is_everything_ = false;
   bool removes_everything_first_ = false;
 };
@@ -125,7 +139,7 @@ class WaitingChanges {
 
  private:
   struct Waiting {
-    Waiting(Change received, FixedFrame& frame);
+    explicit Waiting(Change received);
 
     void find_poses(FixedFrame& frame);
     bool is_placed() const { return poses.size() == change.frames.size(); }

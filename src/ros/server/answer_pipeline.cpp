@@ -8,6 +8,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "fiber_proximity/ros/conversions.hpp"
 
@@ -57,8 +58,10 @@ void AnswerPipeline::answer(const AnswerCause& cause) {
   const bool has_statistics = statistics_.has_listeners();
   const bool wants_everything = has_statistics || markers_.has_listeners();
   const bool wants_contacts = wants_everything || contacts_.has_listeners();
+  // What has gone is told of once: the last answer, and the end of its touches.
+  const bool was_around = std::exchange(is_around_, scene_.environment.is_used());
   const bool looks_around =
-      scene_.environment.is_used() && (wants_everything || environment_contacts_.has_listeners());
+      (is_around_ || was_around) && (wants_everything || environment_contacts_.has_listeners());
   const auto time = [cause] { return cause.time_before + cause.stopwatch.seconds(); };
   budget_.begin(settings_.query().deadline, time, planned_stages(wants_contacts, looks_around));
   if (wants_contacts) {
@@ -98,6 +101,7 @@ void AnswerPipeline::answer(const AnswerCause& cause) {
 
 void AnswerPipeline::answer_about_environment() {
   if (environment_contacts_.has_listeners()) {
+    is_around_ = scene_.environment.is_used();
     const Stopwatch stopwatch;
     begin();
     motion_.rest();

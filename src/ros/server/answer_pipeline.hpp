@@ -90,7 +90,8 @@ class AnswerPipeline {
   MarkerOutput markers_;
   ComparisonOutput comparison_;
   StatisticsOutput statistics_;
-  Answer answer_;  // the last one
+  Answer answer_;           // the last one
+  bool is_around_ = false;  // something, at the last look
   Budget budget_;
   Diagnostics diagnostics_;
 };
