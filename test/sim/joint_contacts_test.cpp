@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "fiber_proximity/sim/joints.hpp"
 #include "src/sim/contact/contact_neighbours.hpp"
+#include "test/sim/contact_system.hpp"
 #include "test/sim/random_rods.hpp"
 #include "test/sim/tunnelling.hpp"
 #include "validation/sim/contact_scenes.hpp"
@@ -174,6 +177,50 @@ TEST(JointContacts, NeighboursAreSoAlongTheShortestWay) {
   EXPECT_FALSE(are_near(2, 37, 2, 0));
   EXPECT_FALSE(are_near(2, 20, 2, 0));
   EXPECT_FALSE(are_near(0, 0, 2, 0));
+}
+
+/// By as many ways as there are through joints, each of which is gone once.
+TEST(JointContacts, NeighboursAreFoundHoweverThickRodsAre) {
+  Rods rods;
+  for (int i = 0; i < 12; ++i) {
+    rods.add(ring({0.1 * i, 0.0, 0.0}, Vector3d::UnitZ(), 0.05, 12), 4000.0, rubber(0.005));
+  }
+  Joints joints(Joints::Options{});
+  for (std::uint32_t i = 0; i < 12; ++i) {
+    joints.close(rods, i);
+  }
+  for (std::uint32_t i = 0; i + 1 < 12; ++i) {
+    rods.positions[rods.first(i + 1)] = rods.positions[rods.first(i) + 6];
+    rods.positions[rods.end(i + 1) - 1] = rods.positions[rods.first(i) + 6];
+    joints.add(rods, {Joints::Kind::BALL, {{i, 6}, {i + 1, 0}}});
+  }
+  const ContactNeighbours neighbours(rods);
+  EXPECT_TRUE(neighbours.contain(rods, 0, 3, 11, rods.first(11) + 8));
+}
+
+/// A ring that is pinched has contact forces there, wherever its seam is.
+TEST(JointContacts, WhatTouchesHasABarrierWhereverTheSeamIs) {
+  constexpr int segments = 16;
+  constexpr double radius = 0.005;
+  std::vector<double> energies;
+  for (int seam = 0; seam < segments; ++seam) {
+    std::vector<Vector3d> points;
+    for (int i = 0; i <= segments; ++i) {
+      const double angle = 2.0 * M_PI * ((i + seam) % segments) / segments;
+      const double width = std::abs(std::cos(angle)) < 0.1 ? 0.0048 : 0.03;
+      points.emplace_back(0.06 * std::cos(angle), width * std::sin(angle), 0.0);
+    }
+    Rods rods;
+    rods.add(points, radius, rubber(radius));
+    Joints joints(Joints::Options{});
+    joints.close(rods, 0);
+    const auto contacts = contacts_with(nullptr);
+    ContactSet found = contacts_of(*contacts, rods);
+    energies.push_back(energy_in(found, rods));
+  }
+  const auto [least, most] = std::minmax_element(energies.begin(), energies.end());
+  EXPECT_GT(*least, 0.0);
+  EXPECT_LE(*most, 4.0 * *least) << "what lies on the seam has the barrier of each end";
 }
 
 /// Two like rods that are joined at their ends fall flat: they part from the floor as one does.

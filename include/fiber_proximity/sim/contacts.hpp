@@ -128,6 +128,7 @@ class FiberContact : public ContactSource {
   void find_candidates(const Rods& rods, double reach);
   void add_near(const Rods& rods, const TravelBound& bound, double approach, ContactSet& found);
   EdgePair candidate(const Rods& rods, const Contact& contact) const;
+  bool owns_node(const Rods& rods, const EdgePair& pair, std::uint32_t end) const;
 
   Options options_;
   std::unique_ptr<ProximityEngine> engine_;

@@ -41,48 +41,58 @@ bool ContactNeighbours::are_near_by_joints(const Rods& rods, std::uint32_t rod_a
   if (to_joint_[edge_a] + to_joint_[edge_b] >= limit) {
     return false;
   }
-  return is_near(rods, edge_a, limit, rod_b, edge_b, false) ||
-         is_near(rods, edge_a + 1, limit, rod_b, edge_b, false);
+  return is_near(rods, edge_a, limit, rod_b, edge_b);
 }
 
-/// Whether there is less than a length between a node and an edge, by way of one joint or more.
-/// @param limit     [m]
-/// @param has_joint whether there was one before the node
-bool ContactNeighbours::is_near(const Rods& rods, std::uint32_t node, double limit,
-                                std::uint32_t rod_b, std::uint32_t edge_b, bool has_joint) const {
-  const std::uint32_t rod = rods_[node];
-  if (has_joint && rod == rod_b) {
-    const double between =
-        std::min(std::abs(arcs_[node] - arcs_[edge_b]), std::abs(arcs_[node] - arcs_[edge_b + 1]));
-    if (between < limit) {
-      return true;
-    }
-  }
-  const auto leave_at = [&](std::uint32_t at) {
-    if (rods.joints[at] < 0) {
-      return false;
-    }
-    const double left = limit - std::abs(arcs_[at] - arcs_[node]);
-    for (const std::uint32_t other : members_[static_cast<std::size_t>(rods.joints[at])]) {
-      if (other != at && left > 0.0 && is_near(rods, other, left, rod_b, edge_b, true)) {
-        return true;
+/// Whether there is less than a length between two edges, by way of one joint or more: the shortest
+/// way, where each joint is left again only with more of the length than before.
+/// @param limit [m]
+bool ContactNeighbours::is_near(const Rods& rods, std::uint32_t from, double limit,
+                                std::uint32_t rod_b, std::uint32_t edge_b) const {
+  left_.resize(members_.size(), 0.0);
+  arrivals_.clear();
+  const auto leave_by_joints_from = [&](std::uint32_t node, double left) {
+    const auto leave_at = [&](std::uint32_t at) {
+      const double rest = left - std::abs(arcs_[at] - arcs_[node]);
+      if (rods.joints[at] < 0) {
+        return;
       }
+      const auto joint = static_cast<std::uint32_t>(rods.joints[at]);
+      if (rest > left_[joint]) {
+        left_[joint] = rest;
+        come_upon_.push_back(joint);
+        for (const std::uint32_t other : members_[joint]) {
+          if (other != at) {
+            arrivals_.push_back({other, rest});
+          }
+        }
+      }
+    };
+    const std::uint32_t rod = rods_[node];
+    for (std::uint32_t at = node; at < rods.end(rod) && arcs_[at] - arcs_[node] < left; ++at) {
+      leave_at(at);
     }
-    return false;
+    for (std::uint32_t at = node; at-- > rods.first(rod) && arcs_[node] - arcs_[at] < left;) {
+      leave_at(at);
+    }
   };
-  // From a joint the way goes on along the rod, not through the same joint again.
-  for (std::uint32_t at = has_joint ? node + 1 : node;
-       at < rods.end(rod) && arcs_[at] - arcs_[node] < limit; ++at) {
-    if (leave_at(at)) {
-      return true;
-    }
+  leave_by_joints_from(from, limit);
+  leave_by_joints_from(from + 1, limit);
+  bool is_found = false;
+  while (!is_found && !arrivals_.empty()) {
+    const Arrival arrival = arrivals_.back();
+    arrivals_.pop_back();
+    const double at = arcs_[arrival.node];
+    is_found =
+        rods_[arrival.node] == rod_b &&
+        std::min(std::abs(at - arcs_[edge_b]), std::abs(at - arcs_[edge_b + 1])) < arrival.left;
+    leave_by_joints_from(arrival.node, arrival.left);
   }
-  for (std::uint32_t at = node; at-- > rods.first(rod) && arcs_[node] - arcs_[at] < limit;) {
-    if (leave_at(at)) {
-      return true;
-    }
+  for (const std::uint32_t joint : come_upon_) {
+    left_[joint] = 0.0;
   }
-  return false;
+  come_upon_.clear();
+  return is_found;
 }
 
 }  // namespace fiber

@@ -156,6 +156,38 @@ void FiberContact::find_candidates(const Rods& rods, double reach) {
   }
 }
 
+/// Whether a pair of edges owns the contact of one of its four ends with the other edge. The edge
+/// beyond that node, which is that across the seam at the ends of a closed rod, makes a pair with
+/// the other edge that contains this contact, too. One of both pairs owns it, unless they have
+/// barriers of their own, where the rod becomes thicker; or there is but one, as the rod ends, or
+/// the edge beyond is too near the other one by way of a joint or a seam.
+bool FiberContact::owns_node(const Rods& rods, const EdgePair& pair, std::uint32_t end) const {
+  const bool is_of_a = end < 2;
+  const std::uint32_t rod = is_of_a ? pair.rod_a : pair.rod_b;
+  const std::uint32_t edge = is_of_a ? pair.edge_a : pair.edge_b;
+  const std::uint32_t first = rods.first(rod);
+  const std::uint32_t last = rods.end(rod) - 2;
+  const bool is_begin = end % 2 == 0;
+  const bool is_outermost = edge == (is_begin ? first : last);
+  if (is_outermost && !rods.is_closed(rod)) {
+    return true;
+  }
+  const std::uint32_t inner = is_begin ? edge - 1 : edge + 1;
+  const std::uint32_t across = is_begin ? last : first;
+  const std::uint32_t beyond = is_outermost ? across : inner;
+  // In the order in which the query has that pair: lengths that are equal round alike.
+  std::uint32_t a = is_of_a ? beyond : pair.edge_a;
+  std::uint32_t b = is_of_a ? pair.edge_b : beyond;
+  if (pair.rod_a == pair.rod_b && b < a) {
+    std::swap(a, b);
+  }
+  if (rods.edge_radius(rod, beyond) != rods.edge_radius(rod, edge) ||
+      neighbours_->contain(rods, pair.rod_a, a, pair.rod_b, b)) {
+    return true;
+  }
+  return is_outermost ? edge == last : is_of_a == (edge < beyond);
+}
+
 EdgePair FiberContact::candidate(const Rods& rods, const Contact& contact) const {
   EdgePair pair;
   pair.rod_a = contact.fiber_a;
@@ -172,16 +204,8 @@ EdgePair FiberContact::candidate(const Rods& rods, const Contact& contact) const
                       material_contact_stiffness(rods.sections[pair.rod_b], touching));
   pair.barrier = Barrier::around(touching, stiffness);
   pair.restitution = options_.restitution;
-  // Two pairs of edges contain the contact of a node and another edge: those of the node's two
-  // edges. The pair of the edge further along the rod owns it, for it exists if the other pair
-  // does. The first node of a closed rod is its last one. Where a rod becomes thicker, both own it.
-  const bool is_step_a = pair.edge_a > rods.first(pair.rod_a) &&
-                         rods.edge_radius(pair.rod_a, pair.edge_a - 1) != radius_a;
-  const bool is_step_b = pair.edge_b + 2 < rods.end(pair.rod_b) &&
-                         rods.edge_radius(pair.rod_b, pair.edge_b + 1) != radius_b;
-  pair.owns = {
-      is_step_a || (pair.edge_a == rods.first(pair.rod_a) && !rods.is_closed(pair.rod_a)), true,
-      true, is_step_b || (pair.edge_b + 2 == rods.end(pair.rod_b) && !rods.is_closed(pair.rod_b))};
+  pair.owns = {owns_node(rods, pair, 0), owns_node(rods, pair, 1), owns_node(rods, pair, 2),
+               owns_node(rods, pair, 3)};
   for (std::uint32_t end = 0; end < 4; ++end) {
     const bool is_of_a = end < 2;
     const std::uint32_t other_rod = is_of_a ? pair.rod_b : pair.rod_a;
