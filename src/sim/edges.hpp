@@ -85,6 +85,10 @@ inline CosineSine cosine_and_sine(double angle) {
   return {1.0 - versine, sine};
 }
 
+/// The strains of damping by the turn of cross-sections vanish towards a fold: the length of the
+/// sum of both tangents, 2 cos(φ/2), by which that begins.
+constexpr double fold_width = 0.5;
+
 /// The derivative of the twist between two edges by the point after the second is this over twice
 /// the second's length; by the point before the first, minus this over twice the first's
 /// (Bergou et al. 2008, Eq. 9). It grows without limit where the rod folds, and is cut off there.

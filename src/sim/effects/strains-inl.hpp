@@ -8,6 +8,7 @@
 #define FIBER_SIM_EFFECTS_STRAINS_INL
 #endif
 
+#include <cmath>
 #include <limits>
 
 #include "src/sim/edges.hpp"
@@ -176,15 +177,14 @@ struct SectionBend {
 
 /// The components of the turn along the mean of both sections' material directions: as
 /// Bergou et al. (2008, Eq. 2), but as long as the turn, 2 sin(φ/2) for the angle φ, and not
-/// 2 tan(φ/2), which a fold has none of. A fold has no side: near it the strain vanishes.
+/// 2 tan(φ/2), which a fold has none of. A fold has no side: towards it the strain vanishes, over
+/// so wide an angle that to pass through one resists no more than a few times as much as any turn.
 HWY_INLINE SectionBend section_bend(const Section& before, const Section& after) {
-  const Real folded = real(1e-3);
   const Vector sum = before.tangent + after.tangent;
-  const Real length = hn::Sqrt(dot(sum, sum));
-  const Real inverse = real(1.0) / hn::Max(folded, length);
   const Vector binormal = cross(before.tangent, after.tangent);
-  const Real by_length =
-      hn::IfThenElseZero(hn::Gt(length, folded), inverse * inverse);  // of the sum
+  const Real by_length = real(1.0) / (dot(sum, sum) + real(fold_width * fold_width));
+  // Small turns are exact.
+  const Real inverse = real(std::sqrt(1.0 + 0.25 * fold_width * fold_width)) * hn::Sqrt(by_length);
   SectionBend bend;
   for (std::size_t j = 0; j < 2; ++j) {
     const Vector& of_before = before.directions[j];

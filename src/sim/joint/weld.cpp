@@ -81,8 +81,8 @@ void WeldStrain::strain_with_twist() {
   levers_ = {weight_ * (a.tangent + natural_b), weight_ * (b.tangent + natural_a)};
   // The components of the turn along the mean of the material directions, as in Damping.
   const Vector3d sum = a.tangent + b.tangent;
-  const double inverse = 1.0 / std::max(folded, sum.norm());
-  const double by_length = sum.norm() > folded ? inverse * inverse : 0.0;
+  const double by_length = 1.0 / (sum.squaredNorm() + fold_width * fold_width);
+  const double inverse = std::sqrt((1.0 + 0.25 * fold_width * fold_width) * by_length);
   const std::array<std::array<const Vector3d*, 2>, 2> directions{
       {{&a.first, &b.first}, {&a.second, &b.second}}};
   for (Eigen::Index j = 0; j < 2; ++j) {
