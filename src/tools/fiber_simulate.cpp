@@ -112,7 +112,7 @@ class Warnings {
 class Balance {
  public:
   void look_at(const SimScene& scene) {
-    const StepReport& report = scene.stepper->report();
+    const StepReport& report = scene.frame;
     const IslandReport& worst = report.worst;
     unbalanced_ += report.unbalanced > 0 ? 1 : 0;
     max_gain_ = std::max(max_gain_, report.energy_gain);

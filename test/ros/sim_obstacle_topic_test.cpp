@@ -214,6 +214,31 @@ TEST_F(SimTopicTest, ABallComesPushesTheCableAndGoes) {
   EXPECT_EQ(warnings("refused"), 0U) << own_sim->output();
 }
 
+/// A long bar whose tip would be at 190 m/s by its stamps.
+TEST_F(SimTopicTest, NothingTurnsFasterThanItMayMove) {
+  Obstacle bar = ball_message("bar", Obstacle::ADD, -5.0);
+  bar.primitives[0].type = shape_msgs::SolidPrimitive::BOX;
+  bar.primitives[0].dimensions = {4.0, 0.02, 0.02};
+  bar.header.stamp = ros::Time::now() - ros::Duration(1.0);
+  publish({bar});
+  ASSERT_TRUE(comes("bar"));
+  Obstacle turned = ball_message("bar", Obstacle::MOVE, -5.0);
+  turned.pose.orientation.z = turned.pose.orientation.w = std::sqrt(0.5);
+  turned.header.stamp = bar.header.stamp + ros::Duration(frame_time);
+  publish({turned});
+  double angle = 0.0;
+  double largest = 0.0;  // turn in a frame
+  ASSERT_TRUE(node_test::wait_for([&] {
+    advance();
+    const double before = angle;
+    angle = 2.0 * std::asin(find("bar")->pose.orientation.z);
+    largest = std::max(largest, angle - before);
+    return std::abs(angle - 0.5 * M_PI) < 1e-6;
+  }));
+  EXPECT_LE(2.0 * largest, 1.01 * 5.0 * frame_time);
+  EXPECT_GT(2.0 * largest, 0.9 * 5.0 * frame_time);
+}
+
 TEST_F(SimTopicTest, ShapesAreAddedAndAllRemoved) {
   tf2_ros::StaticTransformBroadcaster broadcaster;
   broadcaster.sendTransform(test_messages::transform("table", {0.0, 0.0, 0.5}));

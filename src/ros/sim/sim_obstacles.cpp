@@ -9,6 +9,7 @@
 #include "src/ros/environment/obstacle_change.hpp"
 #include "src/ros/sim/sim_frames.hpp"
 #include "src/ros/support/part_of.hpp"
+#include "src/sim/scene/obstacle_motion.hpp"
 #include "src/sim/scene/obstacles.hpp"
 #include "src/text/quote.hpp"
 #include "src/text/with_context.hpp"
@@ -163,10 +164,13 @@ void SimObstacles::move(const fiber::AddedObstacle& added, const Eigen::Isometry
                         const ros::Time& stamp) {
   const double least =
       std::max((stamp - std::exchange(stamps_[added.name], stamp)).toSec(), scene_->time_step);
-  const Eigen::Vector3d way = pose.translation() - fiber::placed(*scene_, added).pose.translation();
-  fiber::move_obstacle(*scene_, added, pose,
-                       std::max(std::min(least, std::max(longest_move, scene_->time_step)),
-                                way.norm() / fastest_frame));
+  const fiber::EnvironmentObject present = fiber::placed(*scene_, added);
+  const double turn = Eigen::AngleAxisd(present.pose.linear().transpose() * pose.linear()).angle();
+  const double way =
+      (pose.translation() - present.pose.translation()).norm() + turn * fiber::reach_of(present);
+  fiber::move_obstacle(
+      *scene_, added, pose,
+      std::max(std::min(least, std::max(longest_move, scene_->time_step)), way / fastest_frame));
 }
 
 }  // namespace fiber_proximity_ros

@@ -165,6 +165,10 @@ MadeEffects make_effects(const SimDescription& description, Rods& rods, SimScene
           : std::make_shared<AnisotropicDamping>(damping));
   add(make_adjustable(description, "drag", make_drag, scene));
   add_fixed("plasticity", [&](const EffectOptions& options) {
+    if (!description.has_effect("bend")) {
+      throw std::invalid_argument(
+          "plasticity: it is bending that yields, name the effect bend, too");
+    }
     return std::make_unique<Plasticity>(
         rods,
         Plasticity::Options{number_of(options, "yield_strain"), number_of(options, "hardening")});

@@ -86,11 +86,16 @@ void set_velocities(const FiberEntry& entry, Rods& rods) {
     mass += rods.masses[i];
   }
   center /= mass;
+  double length = 0.0;
+  for (std::uint32_t i = first; i < last; ++i) {
+    length += rods.rest_lengths[i];
+  }
+  double at = 0.0;  // along the fibre [m]
   for (std::uint32_t i = first; i <= last; ++i) {
     Eigen::Vector3d velocity = entry.angular_velocity.cross(rods.positions[i] - center);
     if (!entry.velocities.empty()) {
-      const double place = static_cast<double>(i - first) / (last - first) *
-                           static_cast<double>(entry.velocities.size() - 1);
+      const double place =
+          std::min(1.0, at / length) * static_cast<double>(entry.velocities.size() - 1);
       const auto before = static_cast<std::size_t>(place);
       const std::size_t after = std::min(before + 1, entry.velocities.size() - 1);
       const double share = place - static_cast<double>(before);
@@ -102,6 +107,7 @@ void set_velocities(const FiberEntry& entry, Rods& rods) {
                                   speed_limit());
     }
     rods.velocities[i] = velocity;
+    at += rods.rest_lengths[i];
   }
 }
 

@@ -50,7 +50,12 @@ Vector3d straightened(const Vector3d& director, const Vector3d& tangent) {
 
 /// Changes a waypoint by the keys of an entry; without a key, the value stays.
 void read_waypoint(const YamlField& entry, SimWaypoint& waypoint) {
-  entry.read("position", waypoint.position);
+  if (const auto position = entry.find("position")) {
+    waypoint.position = position->vector();
+    if (!waypoint.position.allFinite()) {
+      position->refuse("finite");
+    }
+  }
   if (const auto tangent = entry.find("tangent")) {
     waypoint.tangent = unit(*tangent);
   }

@@ -50,10 +50,11 @@ JointEntry read_joint(const YamlField& entry) {
 }
 
 /// Whether a name is that of an entry, or of one of its fibres if it is repeated.
-bool is_of_entry(const std::string& name, const std::string& entry) {
-  const std::string number = name.size() > entry.size() + 1 ? name.substr(entry.size() + 1) : "";
-  return name == entry ||
-         (name.rfind(entry + "_", 0) == 0 && !number.empty() &&
+bool is_of_entry(const std::string& name, const FiberEntry& entry) {
+  const std::string& own = entry.name;
+  const std::string number = name.size() > own.size() + 1 ? name.substr(own.size() + 1) : "";
+  return name == own ||
+         (entry.count && name.rfind(own + "_", 0) == 0 && !number.empty() &&
           std::all_of(number.begin(), number.end(), [](char c) { return c >= '0' && c <= '9'; }));
 }
 
@@ -82,6 +83,13 @@ std::vector<std::vector<std::uint32_t>> fibers_of(const JointEntry& entry,
   return by_node;
 }
 
+/// Whether two nodes are ends of one edge, which would have no length if they were one place.
+bool are_ends_of_an_edge(const Rods& rods, const JointNode& a, const JointNode& b) {
+  const auto [least, most] = std::minmax(a.node, b.node);
+  return a.rod == b.rod && (most == least + 1 || (rods.is_closed(a.rod) && least == 0 &&
+                                                  most + 1 == rods.given_node_count(a.rod)));
+}
+
 void require_new(const std::string& place, const SimDescription& scene,
                  const Joints::Joint& joint) {
   const auto is_same = [](const JointNode& a, const JointNode& b) {
@@ -92,6 +100,11 @@ void require_new(const std::string& place, const SimDescription& scene,
       if (is_same(joint.nodes[i], joint.nodes[j])) {
         throw std::invalid_argument(place + ": " + name_of(scene, joint.nodes[i]) +
                                     " is there twice");
+      }
+      if (are_ends_of_an_edge(scene.rods, joint.nodes[i], joint.nodes[j])) {
+        throw std::invalid_argument(place + ": " + name_of(scene, joint.nodes[j]) + " and " +
+                                    name_of(scene, joint.nodes[i]) +
+                                    " are ends of one segment, which would have no length");
       }
     }
     for (const SimJoint& other : scene.joints) {
@@ -185,7 +198,7 @@ std::vector<JointEntry> read_joints(const YamlField& list) {
   return joints;
 }
 
-std::vector<double> joint_shares(const std::vector<JointEntry>& joints, const std::string& entry) {
+std::vector<double> joint_shares(const std::vector<JointEntry>& joints, const FiberEntry& entry) {
   std::vector<double> shares;
   for (const JointEntry& joint : joints) {
     for (const JointNodeEntry& node : joint.nodes) {

@@ -9,6 +9,7 @@
 
 #include "fiber_proximity/sim/joints.hpp"
 #include "fiber_proximity/sim/scene/scene.hpp"
+#include "src/sim/scene/fibers.hpp"
 
 namespace fiber {
 
@@ -37,7 +38,7 @@ std::vector<JointEntry> read_joints(const YamlField& list);
 
 /// The shares of their lengths at which fibres have nodes, for those of an entry of `fibers`:
 /// rising, each once.
-std::vector<double> joint_shares(const std::vector<JointEntry>& joints, const std::string& entry);
+std::vector<double> joint_shares(const std::vector<JointEntry>& joints, const FiberEntry& entry);
 
 /// Finds the nodes of joints, and moves them to the first of each joint: the largest radius there
 /// is the most. Checks that all can be joined.

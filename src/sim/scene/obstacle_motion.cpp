@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "src/sim/scene/keys.hpp"
+#include "src/sim/scene/parts.hpp"
 #include "src/sim/scene/times.hpp"
 #include "src/text/quote.hpp"
 #include "src/text/with_context.hpp"
@@ -47,7 +48,8 @@ void read_obstacle_waypoint(const YamlField& entry, SimObstacleWaypoint& waypoin
   }
 }
 
-/// How far the points of a bounded object are from its origin at most [m].
+}  // namespace
+
 double reach_of(const EnvironmentObject& object) {
   double farthest = 0.0;
   for (const PlacedShape& placed : object.shapes) {
@@ -55,6 +57,25 @@ double reach_of(const EnvironmentObject& object) {
   }
   return farthest;
 }
+
+void require_slow_turns(const SimDescription& scene) {
+  constexpr double max_turn = 3.0;  // [rad] less than half a turn
+  const double step = scene.time_step / scene.substeps;
+  for (const SimMovingObstacle& obstacle : scene.moving_obstacles) {
+    for (std::size_t i = 1; i < obstacle.path.size(); ++i) {
+      const SimObstacleWaypoint& from = obstacle.path[i - 1];
+      const SimObstacleWaypoint& to = obstacle.path[i];
+      const double turn = std::abs(to.angle - from.angle) / (to.time - from.time) * step;
+      if (!(turn <= max_turn)) {
+        throw std::invalid_argument(format(obstacle.place, " turns by ", turn, " rad in a step of ",
+                                           step, " s, it must be at most ", max_turn,
+                                           " rad: more substeps, or slower"));
+      }
+    }
+  }
+}
+
+namespace {
 
 /// @throws std::invalid_argument naming the obstacle's fastest way if that is too fast
 void require_slow(const SimMovingObstacle& obstacle) {

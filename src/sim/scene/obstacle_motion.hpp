@@ -19,6 +19,13 @@ namespace fiber {
 /// @throws std::invalid_argument naming file, line and value, what is allowed, and the obstacle
 SimMovingObstacle read_obstacle_motion(const SceneObstacle& obstacle);
 
+/// How far the points of a bounded object are from its origin at most [m].
+double reach_of(const EnvironmentObject& object);
+
+/// @throws std::invalid_argument naming an obstacle that turns so far in a step that one cannot see
+///         to which side
+void require_slow_turns(const SimDescription& scene);
+
 /// The motions of a scene's moving obstacles.
 /// @param scene gets the frames that are to be followed
 std::shared_ptr<ObstacleMotions> make_obstacle_motions(const SimDescription& description,

@@ -66,7 +66,7 @@ void PredictionObserver::look() {
 }
 
 void PredictionObserver::count_unbalanced() {
-  prediction_.unbalanced_frames += scene_.stepper->report().unbalanced > 0 ? 1 : 0;
+  prediction_.unbalanced_frames += scene_.frame.unbalanced > 0 ? 1 : 0;
 }
 
 void PredictionObserver::sample() {

@@ -207,7 +207,7 @@ void warn_of_obstacle_lag(const SimScene& scene, std::vector<SimWarning>& warnin
 }
 
 void warn_of_balance(const SimScene& scene, std::vector<SimWarning>& warnings) {
-  const StepReport& report = scene.stepper->report();
+  const StepReport& report = scene.frame;
   if (report.unbalanced == 0 || scene.asks_for_few_iterations()) {
     return;
   }

@@ -50,7 +50,7 @@ SceneResolution::SceneResolution(const YamlField& document, double gravity,
   }
   fibers_ = read_fibers(document.get("fibers"), accuracy || is_real_time_);
   for (FiberEntry& fiber : fibers_) {
-    fiber.joint_shares = joint_shares(joints, fiber.name);
+    fiber.joint_shares = joint_shares(joints, fiber);
   }
   if (accuracy) {
     accuracy_ = read_accuracy(*accuracy);

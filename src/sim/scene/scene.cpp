@@ -261,17 +261,30 @@ SimDescription read_sim_scene(const YamlField& document, const MeshSource& meshe
       read_loads(*lists.loads, made);
     }
   };
-  return resolution.apply(scene, complete, timer);
+  SimDescription made = resolution.apply(scene, complete, timer);
+  require_slow_turns(made);
+  return made;
 }
 
 void SimScene::advance() {
+  frame = StepReport();
   for (std::uint32_t i = 0; i < substeps; ++i) {
     stepper->step(step_length());
+    const StepReport& step = stepper->report();
+    if (i == 0 || !(step.worst.residual <= frame.worst.residual)) {
+      frame.worst = step.worst;
+    }
+    frame.energy_gain = i == 0 ? step.energy_gain : std::max(frame.energy_gain, step.energy_gain);
+    frame.iterations = std::max(frame.iterations, step.iterations);
+    frame.unbalanced += step.unbalanced;
+    frame.coupled_rods = std::max(frame.coupled_rods, step.coupled_rods);
+    frame.impacts += step.impacts;
+    frame.is_first_order = frame.is_first_order || step.is_first_order;
   }
 }
 
 double SimScene::residual_force() const {
-  const IslandReport& worst = stepper->report().worst;
+  const IslandReport& worst = frame.worst;
   const Rods& rods = stepper->rods();
   return worst.residual * rods.masses[rods.first(worst.rod) + worst.node] / step_length();
 }

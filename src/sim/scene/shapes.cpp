@@ -3,6 +3,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <optional>
 
 #include "src/sim/scene/keys.hpp"
 #include "src/sim/scene/parts.hpp"
@@ -193,12 +194,21 @@ std::vector<Vector3d> read_shape(const YamlField& shape) {
     names.push_back(name);
   }
   shape.require_map(names);
+  std::optional<YamlField> options;
+  Points (*read)(const YamlField&) = nullptr;
   for (const auto& [name, reader] : readers) {
-    if (const auto options = shape.find(name)) {
-      return reader(*options);
+    if (const auto found = shape.find(name)) {
+      if (options) {
+        shape.refuse("a map of one shape, not of two");
+      }
+      options = found;
+      read = reader;
     }
   }
-  shape.refuse("a map of one of the keys arc, helix, line, polyline, trefoil");
+  if (!options) {
+    shape.refuse("a map of one of the keys arc, helix, line, polyline, trefoil");
+  }
+  return read(*options);
 }
 
 }  // namespace fiber

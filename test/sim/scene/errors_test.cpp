@@ -70,7 +70,17 @@ TEST_F(SimSceneTest, ErrorsNameLineAndWhatIsAllowed) {
       {scene_text(line, held + "{fiber: cable, path: [{time: 0, position: [0, 0, 0.3]}]}]}]"),
        "7: effects[1].attachment[0] begins 0.300000 m from where node 0 is, it must begin within "
        "0.250000 m, an edge's length (fibre 'cable')"},
-      {scene_text(line, held + "{fiber: cable, position: [0, .nan, 0]}]}]"), "m from where node 0"},
+      {scene_text(line, held + "{fiber: cable, position: [0, .nan, 0]}]}]"),
+       "position is [0, .nan, 0], it must be finite"},
+      {scene_text(
+           line,
+           held +
+               "{fiber: cable, position: [0, .nan, 0], path: [{time: 0, position: [0, 0, 0]}]}]}]"),
+       "position is [0, .nan, 0], it must be finite"},
+      {scene_text("{line: {from: [0, 0, 0], to: [1, 0, 0]}, trefoil: {}}", "[stretch]"),
+       "it must be a map of one shape, not of two"},
+      {scene_text(line, "[stretch, plasticity]"),
+       "plasticity: it is bending that yields, name the effect bend, too"},
       {scene_text(line, held + "{fiber: cable, path: [{time: 0}, {time: 2}], period: 2}]}]"),
        "period is 2, it must be longer than the path, 2.000000 s"},
       {scene_text(line, held + "{fiber: cable, kind: clamp, director: [1, 0.1, 0]}]}]"),

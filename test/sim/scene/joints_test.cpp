@@ -32,6 +32,58 @@ std::string ring_of(const std::string& shape, const std::string& segments,
 
 constexpr const char* square = "{polyline: [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]}";
 
+/// A rope that swings down onto the trunk from which it hangs: however both are numbered, what they
+/// touch beside the joint holds them apart, and nothing else does.
+TEST_F(SimSceneTest, JoinedFibersTouchWhicheverIsFirst) {
+  const auto fiber = [](const std::string& name, const std::string& from, const std::string& to,
+                        int segments) {
+    return "  - {name: " + name + ", shape: {line: {from: " + from + ", to: " + to +
+           "}}, segments: " + std::to_string(segments) + ", radius: 0.004, material: rope}\n";
+  };
+  for (const bool is_upwards : {false, true}) {
+    for (const bool is_first : {false, true}) {
+      SCOPED_TRACE(testing::Message() << is_upwards << is_first);
+      const std::string top = "[0, 0, 1]";
+      const std::string bottom = "[0, 0, 0.8]";
+      const std::string trunk =
+          fiber("trunk", is_upwards ? bottom : top, is_upwards ? top : bottom, 8);
+      const std::string rope = fiber("rope", "[0, 0, 0.9]", "[0.6, 0, 0.9]", 16);
+      SimScene scene =
+          read("fibers:\n" + (is_first ? trunk + rope : rope + trunk) +
+               "effects: [gravity, stretch, bend, fiber_contact, {joint: [{nodes: [{fiber: trunk, "
+               "at: 0.5}, {fiber: rope}]}]}, {attachment: [{fiber: trunk}, {fiber: trunk, node: "
+               "last}]}]\nsubsteps: 4\n");
+      const std::uint32_t last = scene.stepper->rods().end(is_first ? 1 : 0) - 1;
+      std::uint32_t unbalanced = 0;
+      double lowest = 1.0;
+      for (int i = 0; i < 90; ++i) {
+        scene.advance();
+        unbalanced += scene.frame.unbalanced;
+        lowest = std::min(lowest, scene.stepper->rods().positions[last].z());
+      }
+      EXPECT_EQ(unbalanced, 0U);
+      EXPECT_LT(lowest, 0.4) << "it hangs down";
+      EXPECT_GT(scene.stepper->rods().velocities[last].norm(), 1e-6) << "it moves on";
+    }
+  }
+}
+
+/// The names of others are no shares of a fibre's own.
+TEST_F(SimSceneTest, JointsAreOfTheFibersThatTheyName) {
+  const auto fiber = [](const std::string& name, const std::string& y) {
+    return "  - {name: " + name + ", shape: {line: {from: [0, " + y + ", 0], to: [1, " + y +
+           ", 0]}}, segments: 5, radius: 0.004, material: rope}\n";
+  };
+  const SimScene scene = read(
+      "fibers:\n" + fiber("branch", "0") + fiber("branch_1", "1") +
+      "  - {name: twig, shape: {line: {from: [0.33, 1, 0], to: [0.33, 2, 0]}}, segments: 2, "
+      "radius: 0.004, material: rope}\n"
+      "effects: [stretch, {joint: [{nodes: [{fiber: branch_1, at: 0.33}, {fiber: twig}]}]}]\n");
+  const Rods& rods = scene.stepper->rods();
+  EXPECT_NEAR(rods.positions[2].x(), 0.4, 1e-12);
+  EXPECT_NEAR(rods.positions[rods.first(1) + 2].x(), 0.33, 1e-12);
+}
+
 TEST_F(SimSceneTest, FibersAreJoined) {
   SimScene scene = read(joined(branching, "stretch, bend, gravity, self_contact, fiber_contact"));
   const Rods& rods = scene.stepper->rods();
@@ -148,6 +200,13 @@ TEST_F(SimSceneTest, WrongJointsAreErrors) {
        "to which it is joined; it must begin within 0.01 m, the largest radius there"},
       {joined("{nodes: [{fiber: stem, node: 5}, {fiber: stem, node: 5}]}"),
        "node 5 of fibre 'stem' is there twice"},
+      {joined("{nodes: [{fiber: stem, node: 5}, {fiber: stem, node: 4}]}"),
+       "node 5 of fibre 'stem' and node 4 of fibre 'stem' are ends of one segment, which would "
+       "have "
+       "no length"},
+      {ring_of(square, "16",
+               "stretch, {joint: [{nodes: [{fiber: ring}, {fiber: ring, node: 15}]}]}"),
+       "node 0 of fibre 'ring' and node 15 of fibre 'ring' are ends of one segment"},
       {joined(std::string(branching) + ", " + branching),
        "joint[1]: node 5 of fibre 'stem' is joined already: "},
       {joined(branching, "stretch"), "name the effect bend, too"},

@@ -164,7 +164,9 @@ std::string scene_with(const SceneMap& map, const std::string& key, const std::s
                     : is_gravity_period ? "table: [{time: 0}]"
                                         : "") +
                "}";
-    effects += map.name == "friction" ? ", fiber_contact" : "";
+    effects += map.name == "friction"     ? ", fiber_contact"
+               : map.name == "plasticity" ? ", bend"
+                                          : "";
     if (map.name == "environment_contact") {
       environment =
           ", environment: {obstacles: [{id: table, half_spaces: [{coef: [0, 0, 1, 9]}]}]}";

@@ -87,6 +87,20 @@ TEST_F(SimSceneTest, GravityChangesInTime) {
   EXPECT_LE((scene.stepper->rods().velocities[1] - Vector3d(0.0, 0.5, -1.75)).norm(), 1e-9);
 }
 
+/// Wherever a fibre's nodes are: the first half is one segment here.
+TEST_F(SimSceneTest, VelocitiesAreAtEqualDistancesAlongAFibre) {
+  std::string text = scene_text(line, "[stretch, bend]", "time_step: 0.001\n");
+  text.replace(text.find("    segments: 4"), 15,
+               "    segments: 6\n    velocities: [[0, 0, 0], [0, 0, 1]]\n"
+               "    sections: [{from: 0, to: 0.5, rigid: true}]");
+  const SimScene scene = read(text);
+  const Rods& rods = scene.stepper->rods();
+  for (std::uint32_t i = 0; i < rods.end(0); ++i) {
+    EXPECT_NEAR(rods.velocities[i].z(), rods.positions[i].x(), 1e-12) << i;
+  }
+  EXPECT_NEAR(rods.positions[1].x(), 0.5, 1e-12);
+}
+
 /// A rod of 1 m that is thrown with a spin about an axis across it and one about its own.
 TEST_F(SimSceneTest, AThrownFibreFliesItsParabolaAndKeepsItsSpin) {
   const auto thrown = [&](const std::string& integrator) {

@@ -105,6 +105,7 @@ TEST_F(SimSceneTest, MotionsThatCannotBeAreRefused) {
   refused("{period: 1, frame: tool}", "absent where there is no path");
   refused("{path: [{time: 0}, {time: 0.1, position: [200, 0, 0]}]}", "at most 1000");
   refused("{path: [{time: 0}, {time: 0.001, angle: 100}]}", "at most 1000");
+  refused("{path: [{time: 0}, {time: 1, angle: 800}]}", "it must be at most 3 rad: more substeps");
 }
 
 /// The links that a robot has: `hand`, a ball, and what is wrong with others.

@@ -79,6 +79,29 @@ TEST_F(SimSceneTest, ReportsWhatASceneLeavesOut) {
   EXPECT_NE(sentences(all.warnings).find("nothing resists stretch"), std::string::npos);
 }
 
+/// Of all its steps: those before the last one may be the worst.
+TEST_F(SimSceneTest, AFrameTellsOfAllItsSteps) {
+  SimScene scene =
+      read(scene_text(line, "[gravity, stretch, bend, {attachment: [{fiber: cable, node: first}]}]",
+                      "substeps: 5\niterations: 1\nresidual: 1e-9\n"));
+  SimScene single =
+      read(scene_text(line, "[gravity, stretch, bend, {attachment: [{fiber: cable, node: first}]}]",
+                      "substeps: 5\niterations: 1\nresidual: 1e-9\n"));
+  for (int frame = 0; frame < 20; ++frame) {
+    scene.advance();
+    double worst = 0.0;
+    std::uint32_t unbalanced = 0;
+    for (int step = 0; step < 5; ++step) {
+      single.stepper->step(single.step_length());
+      worst = std::max(worst, single.stepper->report().worst.residual);
+      unbalanced += single.stepper->report().unbalanced;
+    }
+    EXPECT_EQ(scene.frame.worst.residual, worst);
+    EXPECT_EQ(scene.frame.unbalanced, unbalanced);
+    EXPECT_GT(unbalanced, 0U);
+  }
+}
+
 TEST_F(SimSceneTest, TrialsAreOnCopies) {
   const SimTrial trial = try_scene(describe(scene_text(line, "[gravity, stretch, bend]")), 1);
   EXPECT_GE(trial.steps, 1U);
