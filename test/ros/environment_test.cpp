@@ -115,6 +115,22 @@ TEST_F(EnvironmentTest, ContactsNameObjectShapeAndSegment) {
   EXPECT_NEAR(answer->contacts[0].distance, -0.01, 1e-12);
 }
 
+/// Whoever listens would believe that the last contact lasted.
+TEST_F(EnvironmentTest, TellsThatTheLastObjectHasGone) {
+  node_test::Recorder<ContactArray> environment(node, "/proximity/environment_contacts");
+  apply({ball("ball", 0.0, 0.3)});
+  const ContactArray* answer = environment.wait_for(send(0.0));
+  ASSERT_NE(answer, nullptr);
+  EXPECT_EQ(answer->contacts.size(), 1U);
+  // With fibres on their way, as a tracker sends them.
+  Obstacle removal = ball("ball", 0.0, 0.3);
+  removal.operation = Obstacle::REMOVE;
+  apply({removal});
+  send(0.0);
+  ASSERT_NE(environment.wait_for([](const ContactArray& found) { return found.contacts.empty(); }),
+            nullptr);
+}
+
 TEST_F(EnvironmentTest, IsNotLookedAtWhereThereIsNone) {
   const fiber_proximity::Statistics* cost = statistics.wait_for(send(0.0));
   ASSERT_NE(cost, nullptr);
@@ -254,6 +270,22 @@ TEST_F(EnvironmentTest, SaysWhichCandidateIsWrong) {
   request.replaced_fibers = {"hose"};
   const CheckFibers::Response response = call<CheckFibers>("/proximity/check_fibers", request);
   EXPECT_EQ(response.message, "there is no fibre 'hose' to be replaced");
+  // Of two with one name nobody knows which one is meant.
+  FiberArray twins = upright(0.0);
+  for (std::size_t i = 0; i < 3; ++i) {
+    twins.points.push_back(twins.points[i]);
+    twins.points.back().x += 1.0;
+  }
+  twins.offsets = {0, 3, 6};
+  twins.names = {"twin", "twin"};
+  request.replaced_fibers = {"twin"};
+  EXPECT_TRUE(node_test::wait_for([&] {
+    twins.header.stamp = new_stamp();
+    publisher_.publish(twins);
+    return call<CheckFibers>("/proximity/check_fibers", request).message ==
+           "which of the 2 fibres with the name 'twin' is to be replaced is not known: each must "
+           "have its own";
+  }));
   request.replaced_fibers.clear();
   request.margin = -1.0;
   EXPECT_FALSE(call<CheckFibers>("/proximity/check_fibers", request).success);

@@ -63,5 +63,17 @@ TEST(SequenceGaps, ManyPublishersThatComeAndGoLeaveTheOthersCounted) {
   EXPECT_EQ(gaps.count(), 999);
 }
 
+TEST(PublisherTurns, AreTwoThatComeBack) {
+  PublisherTurns turns;
+  EXPECT_EQ(turns.add("/a"), "");
+  EXPECT_EQ(turns.add("/a"), "");
+  EXPECT_EQ(turns.add("/b"), "") << "it has taken over";
+  EXPECT_EQ(turns.add("/b"), "");
+  EXPECT_EQ(turns.add("/a"), "/b");
+  EXPECT_EQ(turns.add("/b"), "/a");
+  EXPECT_EQ(turns.add("/c"), "");
+  EXPECT_EQ(turns.add("/d"), "");
+}
+
 }  // namespace
 }  // namespace fiber_proximity_ros

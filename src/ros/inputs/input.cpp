@@ -7,6 +7,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "src/text/quote.hpp"
+
 namespace fiber_proximity_ros {
 
 Input::Input(InputOptions options, const InputTiming& timing, Worker& worker)
@@ -23,6 +25,7 @@ void Input::receive(const ReceivedMessage& message, FixedFrame& frame) {
   if (message.sequence) {
     gaps_.add(message.publisher, *message.sequence);
   }
+  watch_publishers(message.publisher);
   if (trial_.budget().is_closed()) {
     log_.refuse(trial_.budget().problem());
     return;
@@ -41,6 +44,16 @@ void Input::receive(const ReceivedMessage& message, FixedFrame& frame) {
     message.keep();
   } catch (const std::invalid_argument& error) {
     log_.refuse(error.what());
+  }
+}
+
+/// Each message is all fibres of the input: of two publishers, each takes away those of the other.
+void Input::watch_publishers(const std::string& publisher) {
+  const std::string other = turns_.add(publisher);
+  if (!other.empty()) {
+    log_.remark(
+        "messages come from " + fiber::quote(other) + " and " + fiber::quote(publisher) +
+        " by turns, and each replaces the fibres of the other: give them topics of their own");
   }
 }
 

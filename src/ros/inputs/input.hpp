@@ -91,6 +91,7 @@ class Input {
   std::optional<Unknown> unknown() const;
 
  private:
+  void watch_publishers(const std::string& publisher);
   /// Why the fibres are stale: no message comes, or those that come match no other input's.
   enum class Staleness { NONE, SILENT, UNMATCHED };
 
@@ -105,6 +106,7 @@ class Input {
   InputTiming timing_;
   MessageLog log_;
   SequenceGaps gaps_;
+  PublisherTurns turns_;
   InputStamps stamps_;
   MessageReader reader_;
   TransformQueue transforms_;

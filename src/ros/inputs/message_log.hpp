@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "fiber_proximity/InputStatistics.h"
@@ -82,6 +83,27 @@ class SequenceGaps {
   std::vector<Publisher> publishers_;  // the one heard from last comes first
   std::uint64_t count_ = 0;
   bool is_numbered_ = false;
+};
+
+/// Tells of two publishers of a topic that take turns. One that another has taken over from is none
+/// of them.
+class PublisherTurns {
+ public:
+  /// @param publisher name of the node that has sent the message
+  /// @returns the other one, whose message came before it as one of this publisher had come before
+  ///          that; empty: there is none
+  std::string add(const std::string& publisher) {
+    if (publisher == last_) {
+      return "";
+    }
+    const bool is_back = publisher == before_;
+    before_ = std::exchange(last_, publisher);
+    return is_back ? before_ : "";
+  }
+
+ private:
+  std::string before_;
+  std::string last_;
 };
 
 }  // namespace fiber_proximity_ros

@@ -119,7 +119,8 @@ fiber::FiberPath read_motion(const CheckFibers::Request& request, std::size_t mo
 class PresentFibers {
  public:
   /// Refers to the target. With ignore_fibers there are none, and none are to be replaced.
-  /// @throws std::invalid_argument for a fibre to be replaced that there is not
+  /// @throws std::invalid_argument for a fibre to be replaced that there is not, or of whose name
+  ///         there are several
   PresentFibers(const QueryTarget& target, const CheckFibers::Request& request) {
     surroundings_.environment = request.ignore_environment != 0 ? nullptr : &target.environment;
     surroundings_.self = request.ignore_self == 0;
@@ -143,8 +144,14 @@ class PresentFibers {
   void leave_out(const QueryTarget& target, const std::vector<std::string>& replaced) {
     const std::vector<std::string>& names = target.scene.fibers.names();
     for (const std::string& name : replaced) {
-      if (std::find(names.begin(), names.end(), name) == names.end()) {
+      const auto count = std::count(names.begin(), names.end(), name);
+      if (count == 0) {
         throw std::invalid_argument("there is no fibre " + fiber::quote(name) + " to be replaced");
+      }
+      if (count > 1) {
+        throw std::invalid_argument("which of the " + std::to_string(count) +
+                                    " fibres with the name " + fiber::quote(name) +
+                                    " is to be replaced is not known: each must have its own");
       }
     }
     for (std::uint32_t i = 0; i < target.fibers.fiber_count(); ++i) {
