@@ -229,7 +229,7 @@ void bind_environment(py::module& module) {
           "read",
           [](SharedWorld& world, const py::object& path) { read_file(world, to_path(path)); },
           py::arg("path"),
-          "Adds the `obstacles` of a YAML file as the node's parameter ~environment has them.")
+          "Adds the `obstacles` of a YAML file as the node's parameter ~scene has them.")
       .def_property_readonly("names", &names_of,
                              "Names of the objects, a list of str: `fiber_b` of a contact with the "
                              "environment is an index of it.")

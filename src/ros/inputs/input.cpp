@@ -51,8 +51,9 @@ void Input::receive(const ReceivedMessage& message, FixedFrame& frame) {
 void Input::watch_publishers(const std::string& publisher) {
   const std::string other = turns_.add(publisher);
   if (!other.empty()) {
+    const auto [first, second] = std::minmax(other, publisher);  // said once
     log_.remark(
-        "messages come from " + fiber::quote(other) + " and " + fiber::quote(publisher) +
+        "messages come from " + fiber::quote(first) + " and " + fiber::quote(second) +
         " by turns, and each replaces the fibres of the other: give them topics of their own");
   }
 }
