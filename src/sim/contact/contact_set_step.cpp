@@ -202,11 +202,21 @@ std::vector<Impact> ContactSet::find_impacts(const Rods& rods,
     return found;
   }
   is_any_of_impact = false;
+  std::vector<Vector3d> frictions(distance_count(), Vector3d::Zero());  // on a [N]
+  for (const FrictionPoint& point : frictions_) {
+    const Vector3d slip = point.slip(rods);
+    frictions[point.contact] -=
+        point.max_force * Friction::law(slip.norm(), stick_length_).resistance * slip;
+  }
   DistanceTerms buffer;
   for (std::size_t i = 0; i < distance_count(); ++i) {
     if (energies_[i] == 0.0) {
       continue;
     }
+    double force = 0.0;  // along the normals of all its points [N]
+    for_each_term(rods, i, buffer, [&](const ContactPoints& /*points*/, const DistanceTerm& term) {
+      force += std::max(0.0, -term.slope);
+    });
     for_each_term(rods, i, buffer, [&](const ContactPoints& points, const DistanceTerm& term) {
       if (!(term.pressure > 0.0)) {
         return;
@@ -221,6 +231,8 @@ std::vector<Impact> ContactSet::find_impacts(const Rods& rods,
         impact.separation = restitution_of(i) * approach;
       } else if (may_return(i)) {
         impact.returnable = step_ * std::max(0.0, -term.slope);
+        impact.step_friction =
+            force > 0.0 ? Vector3d(impact.returnable / force * frictions[i]) : Vector3d::Zero();
         impact.max_separation = std::max(0.0, -approach);
       }
       is_any_of_impact |= impact.has_begun || impact.returnable > 0.0;

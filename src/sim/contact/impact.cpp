@@ -114,10 +114,10 @@ double speed_along(const Impact& impact, const Rods& rods) {
       .dot(impact.normal);
 }
 
-/// The impulse of friction that goes with a normal impulse which is taken back. What hardly slides
-/// has had less friction than the cone allows.
-Vector3d returned_friction(const Vector3d& slip, double max_friction) {
-  return max_friction / std::max(slip.norm(), Impact::min_speed) * slip;
+/// The part of a vector that is no longer than that.
+Vector3d within(const Vector3d& vector, double max_length) {
+  const double length = vector.norm();
+  return length > max_length ? Vector3d(max_length / length * vector) : vector;
 }
 
 }  // namespace
@@ -131,10 +131,8 @@ void resolve(Rods& rods, double coefficient, std::vector<Impact>& impacts) {
   constexpr int max_iterations = 200;
   constexpr double max_change = 1e-6;  // of the largest impulse
   std::vector<Mobilities> by_impact;
-  std::vector<Vector3d> slips;  // that friction in the step has left
   for (Impact& impact : impacts) {
     by_impact.push_back(mobilities(impact, rods));
-    slips.push_back(slip_velocity(impact, rods));
     if (!impact.has_begun) {
       impact.separation = std::min(0.0, speed_along(impact, rods));
     }
@@ -157,17 +155,15 @@ void resolve(Rods& rods, double coefficient, std::vector<Impact>& impacts) {
       const double kept = impact.pressure + (impact.max_separation - speed) / sides.along;
       const double pressure = std::max(-impact.returnable, std::clamp(0.0, parting, kept));
       if (pressure == 0.0 && impact.pressure == 0.0 && impact.friction == Vector3d::Zero()) {
-        continue;  // most contacts of an island that is struck: there is no impulse, and is none
-                   // now
+        continue;  // as of most contacts of an island that is struck
       }
       on_both(push, (pressure - impact.pressure) * impact.normal);
-      const double max_friction = coefficient * std::abs(pressure);
-      Vector3d friction = impact.friction - slip_velocity(impact, rods) / sides.across;
-      if (pressure < 0.0) {
-        friction = returned_friction(slips[index], max_friction);
-      } else if (friction.norm() > max_friction) {
-        friction *= max_friction / friction.norm();
-      }
+      const Vector3d friction =
+          pressure < 0.0 ? Vector3d(within(impact.step_friction,
+                                           coefficient * (impact.returnable + pressure)) -
+                                    impact.step_friction)
+                         : within(impact.friction - slip_velocity(impact, rods) / sides.across,
+                                  coefficient * pressure);
       on_both(push_across, friction - impact.friction);
       change = std::max(
           {change, std::abs(pressure - impact.pressure), (friction - impact.friction).norm()});

@@ -47,6 +47,8 @@ struct Impact {
 
   /// Impulse that the contact has given its sides in this step and that may be taken back [N s].
   double returnable = 0.0;
+  /// The impulse of friction on a that goes with it [N s].
+  Eigen::Vector3d step_friction = Eigen::Vector3d::Zero();
   /// Speed down to which that may be [m/s].
   double max_separation = std::numeric_limits<double>::infinity();
 
@@ -61,9 +63,9 @@ bool is_returning(const Impact& impact, const Rods& rods);
 
 /// Finds the impulses of impacts by projected Gauss-Seidel, and changes velocities and spins by
 /// them: contact by contact the impulse with which it parts as it should, never pulling, and the
-/// friction that stops it from sliding, within its cone; with what is taken back of the normal
-/// impulse of the step goes the friction by it. Equal and opposite impulses at one point
-/// keep momentum and angular momentum, however many iterations there are.
+/// friction that stops it from sliding, within its cone; where some of the normal impulse of the
+/// step is taken back, so is what its friction exceeds the cone of the rest by. Equal and opposite
+/// impulses at one point keep momentum and angular momentum, however many iterations there are.
 /// @param coefficient of friction
 void resolve(Rods& rods, double coefficient, std::vector<Impact>& impacts);
 
