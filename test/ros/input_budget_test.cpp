@@ -61,7 +61,9 @@ TEST(CostOf, TellsFibresThatTakeTooLong) {
 TEST(InputBudget, ManySegmentsAreTriedOnceAndAgainWhenTheyAreTwiceAsMany) {
   ros::Time::init();
   InputBudget budget(limits_of(1'000'000, 0.1));
-  EXPECT_FALSE(budget.is_to_be_tried(chain(1000, 0.1))) << "they have fewer pairs";
+  EXPECT_FALSE(budget.is_to_be_tried(chain(400, 0.1))) << "they have fewer pairs";
+  EXPECT_TRUE(budget.is_to_be_tried(chain(500, 0.1))) << "their pairs may take so long";
+  EXPECT_FALSE(InputBudget(limits_of(1'000'000, 0.0)).is_to_be_tried(chain(1000, 0.1)));
   EXPECT_TRUE(budget.is_to_be_tried(chain(2000, 0.1)));
   budget.take(chain(2000, 0.1), {"", 0.01});
   EXPECT_FALSE(budget.is_to_be_tried(chain(2000, 0.1)));

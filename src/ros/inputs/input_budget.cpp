@@ -11,6 +11,9 @@
 namespace fiber_proximity_ros {
 namespace {
 
+// At most, of the dearest kernel (the trial tells how long they really take).
+constexpr double seconds_for_pair = 1e-6;
+
 /// The largest part of the time that trials may take.
 constexpr double trial_part = 0.05;
 
@@ -70,10 +73,12 @@ FiberCost cost_of(const fiber::FiberAssembly& fibers, fiber::QueryOptions option
 
 bool InputBudget::is_to_be_tried(const fiber::FiberAssembly& fibers) const {
   const std::size_t count = fibers.segment_count();
-  // Fewer segments cannot have so many pairs.
-  const bool are_many = limits_.max_pairs == 0 ? limits_.max_time > 0.0
-                                               : count * count / 2 > std::size_t{limits_.max_pairs};
-  return are_many && count > 2 * passed_segments_;
+  // Fewer segments cannot have so many pairs, or take so long.
+  const std::size_t most_pairs = count * count / 2;
+  const bool may_be_many = limits_.max_pairs > 0 && most_pairs > std::size_t{limits_.max_pairs};
+  const bool may_be_slow = limits_.max_time > 0.0 &&
+                           seconds_for_pair * static_cast<double>(most_pairs) > limits_.max_time;
+  return (may_be_many || may_be_slow) && count > 2 * passed_segments_;
 }
 
 void InputBudget::take(const fiber::FiberAssembly& fibers, const FiberCost& cost) {
