@@ -24,12 +24,18 @@ std::uint32_t whole(double number) {
 
 }  // namespace
 
-std::uint32_t segments_for(double accuracy, double turning) {
+std::uint32_t segments_for(double accuracy, double turning, double limpness) {
   require_accuracy(accuracy);
   require_not_negative("turning", turning, " rad");
-  return whole(std::max(
-      std::sqrt(std::max(ResolutionTable::bending, ResolutionTable::swing / half) / accuracy),
-      turning * std::sqrt(ResolutionTable::turning / accuracy)));
+  require(limpness >= 0.0, "limpness", limpness, "", "at least 0");
+  const double swing = std::min(ResolutionTable::swing * limpness, ResolutionTable::most_swing);
+  return whole(std::max(std::sqrt(std::max(ResolutionTable::bending, swing / half) / accuracy),
+                        turning * std::sqrt(ResolutionTable::turning / accuracy)));
+}
+
+double limpness(const RodSection& section, double length, double gravity) {
+  const double weight = section.mass_per_length * gravity;
+  return weight > 0.0 ? length * std::cbrt(weight / section.bending_stiffness) : 0.0;
 }
 
 std::uint32_t substeps_for(double accuracy, Integrator integrator, double frame, double period) {

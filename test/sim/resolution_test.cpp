@@ -53,7 +53,7 @@ TEST(Resolution, ErrorsOfSegmentsAreTheTablesAndNoLess) {
 
 TEST(Resolution, ChosenSegmentsAreAsAccurateAsAskedFor) {
   for (const double accuracy : {0.1, 0.01, 0.002}) {
-    const std::uint32_t segments = segments_for(accuracy, 0.0);
+    const std::uint32_t segments = segments_for(accuracy, 0.0, 0.0);
     for (const Load& load : loads) {
       EXPECT_LE(tip_error(static_cast<int>(segments), load), accuracy)
           << segments << " segments, loads " << load.tip << ", " << load.spread;
@@ -64,7 +64,7 @@ TEST(Resolution, ChosenSegmentsAreAsAccurateAsAskedFor) {
 TEST(Resolution, CurvesAreAsLongAsAskedFor) {
   constexpr double accuracy = 0.001;
   for (const double turning : {20.0, 40.0}) {
-    const double segments = segments_for(accuracy, turning);
+    const double segments = segments_for(accuracy, turning, 0.0);
     // A chord of the angle x of a circle is sin (x / 2) / (x / 2) times as long as its arc.
     const auto error = [turning](double count) {
       return 1.0 - std::sin(0.5 * turning / count) / (0.5 * turning / count);
@@ -132,16 +132,25 @@ TEST(Resolution, ChosenStepsAreAsAccurateAsAskedFor) {
 constexpr double gravity = 9.81;
 constexpr double frame = 1.0 / 60.0;
 
-/// Cables of the presets, 1 m long, and their radii [m].
-const std::vector<std::pair<const char*, double>> cables{
-    {"power_cable", 0.004}, {"silicone_tube", 0.005}, {"rope", 0.005}, {"hair", 0.0004}};
+struct Cable {
+  const char* preset;
+  double radius;  // [m]
+  double length;  // [m]
+};
+
+const std::vector<Cable> cables{{"power_cable", 0.004, 1.0},
+                                {"silicone_tube", 0.005, 1.0},
+                                {"rope", 0.005, 1.0},
+                                {"hair", 0.0004, 1.0},
+                                {"rope", 0.004, 3.0}};
 
 /// The tip of a cable that is let go at 45° from a pin, after each frame of 0.6 periods.
-std::vector<Vector3d> swinging_tip(const RodSection& section, double radius, std::uint32_t segments,
-                                   std::uint32_t substeps, Integrator integrator) {
+std::vector<Vector3d> swinging_tip(const RodSection& section, const Cable& cable,
+                                   std::uint32_t segments, std::uint32_t substeps,
+                                   Integrator integrator) {
   Rods rods;
-  const Vector3d end = Vector3d(1, 0, -1).normalized();
-  rods.add(straight(Vector3d::Zero(), end, static_cast<int>(segments)), radius, section);
+  const Vector3d end = cable.length * Vector3d(1, 0, -1).normalized();
+  rods.add(straight(Vector3d::Zero(), end, static_cast<int>(segments)), cable.radius, section);
   auto pinned = hold(rods, {pin(0, Vector3d::Zero())});
   StepperOptions options;
   options.integrator = integrator;
@@ -151,7 +160,7 @@ std::vector<Vector3d> swinging_tip(const RodSection& section, double radius, std
                           std::make_unique<Stretch>(), std::make_unique<Bend>(), std::move(pinned)),
                   options);
   std::vector<Vector3d> tips;
-  while (stepper.time() < 0.6 * swing_period(section, 1.0, gravity)) {
+  while (stepper.time() < 0.6 * swing_period(section, cable.length, gravity)) {
     for (std::uint32_t i = 0; i < substeps; ++i) {
       stepper.step(frame / substeps);
     }
@@ -162,21 +171,25 @@ std::vector<Vector3d> swinging_tip(const RodSection& section, double radius, std
 
 TEST(Resolution, TheTipOfASwingingCableIsWhereTheAccuracySays) {
   double worst = 0.0;  // in parts of the accuracy
-  for (const auto& [preset, radius] : cables) {
+  for (const Cable& cable : cables) {
+    const auto& [preset, radius, length] = cable;
     const RodSection section = solid_round_section(material_preset(preset), radius);
-    const std::vector<Vector3d> exact = swinging_tip(section, radius, 150, 24, Integrator::BDF2);
+    const std::vector<Vector3d> exact =
+        swinging_tip(section, cable, length > 1.0 ? 300 : 150, 24, Integrator::BDF2);
     for (const Integrator integrator : {Integrator::IMPLICIT_EULER, Integrator::BDF2}) {
       for (const double accuracy : {0.05, 0.01}) {
         const std::uint32_t substeps =
-            substeps_for(accuracy, integrator, frame, swing_period(section, 1.0, gravity));
-        const std::vector<Vector3d> tips =
-            swinging_tip(section, radius, segments_for(accuracy, 0.0), substeps, integrator);
+            substeps_for(accuracy, integrator, frame, swing_period(section, length, gravity));
+        const std::vector<Vector3d> tips = swinging_tip(
+            section, cable, segments_for(accuracy, 0.0, limpness(section, length, gravity)),
+            substeps, integrator);
         double error = 0.0;
         for (std::size_t i = 0; i < exact.size(); ++i) {
           error = std::max(error, (tips[i] - exact[i]).norm());
         }
-        EXPECT_LE(error, accuracy)
-            << preset << ", integrator " << static_cast<int>(integrator) << ", " << substeps;
+        error /= length;
+        EXPECT_LE(error, accuracy) << preset << " of " << length << " m, integrator "
+                                   << static_cast<int>(integrator) << ", " << substeps;
         worst = std::max(worst, error / accuracy);
       }
     }
@@ -200,9 +213,9 @@ TEST(Resolution, SwingsByWeightAndByStiffness) {
 }
 
 TEST(Resolution, RefusesWhatIsNotAllowed) {
-  EXPECT_EQ(error_of([] { segments_for(0.0, 1.0); }),
+  EXPECT_EQ(error_of([] { segments_for(0.0, 1.0, 0.0); }),
             "accuracy is 0.000000, it must be above 0 and at most 0.5");
-  EXPECT_EQ(error_of([] { segments_for(0.1, -1.0); }),
+  EXPECT_EQ(error_of([] { segments_for(0.1, -1.0, 0.0); }),
             "turning is -1.000000 rad, it must be at least 0 and finite");
   EXPECT_EQ(error_of([] { substeps_for(0.1, Integrator::IMPLICIT_EULER, 0.0, 1.0); }),
             "frame is 0.000000 s, it must be positive and finite");

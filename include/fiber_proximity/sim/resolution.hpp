@@ -20,9 +20,11 @@ struct ResolutionTable {
 
   /// The place of the tip of a cable that is let go at 45° from a pin, straight and at rest, in
   /// parts of its length, for 0.6 of the period T of its slowest swing (1 s for a metre that hangs
-  /// by its weight). Of n segments it is off by at most swing / n², in steps of implicit Euler by
-  /// euler · step / T, in steps of BDF2 by bdf2 · (step / T)².
-  static constexpr double swing = 4.5;
+  /// by its weight). Of n segments it is off by at most swing · limpness / n², but by no more than
+  /// most_swing / n², in steps of implicit Euler by euler · step / T, in steps of BDF2 by bdf2 ·
+  /// (step / T)².
+  static constexpr double swing = 0.48;
+  static constexpr double most_swing = 20.0;
   static constexpr double euler = 22.0;
   static constexpr double bdf2 = 900.0;
 
@@ -35,8 +37,16 @@ struct ResolutionTable {
 /// (ResolutionTable), and its shape at rest within the accuracy.
 /// @param accuracy relative, in (0, 0.5]
 /// @param turning  of the fibre in all as it is at rest [rad], >= 0
+/// @param limpness of it, >= 0
 /// @throws std::invalid_argument naming the value for one that is not allowed
-std::uint32_t segments_for(double accuracy, double turning);
+std::uint32_t segments_for(double accuracy, double turning, double limpness);
+
+/// How many times as long a fibre is as a piece of it that its weight bends much, (EI / w)^(1/3) of
+/// the bending stiffness EI and the weight w of a length: 4 of a metre of hair, 13 of 8 mm rope.
+/// Infinite without stiffness, 0 without gravity.
+/// @param length  [m], > 0
+/// @param gravity [m/s²], >= 0
+double limpness(const RodSection& section, double length, double gravity);
 
 /// Fewest steps in a frame so that they leave the tip of a fibre with this period within half of
 /// the accuracy in a swing (ResolutionTable).

@@ -241,8 +241,9 @@ std::int64_t FiberEntry::segments_for(std::optional<double> accuracy) const {
     return *segments;
   }
   return with_fiber_name(name, [&] {
-    const std::int64_t chosen = std::max<std::int64_t>(
-        fiber::segments_for(accuracy.value(), turning), is_closed ? min_closed_segments : 1);
+    const std::int64_t chosen =
+        std::max<std::int64_t>(fiber::segments_for(accuracy.value(), turning, limpness),
+                               is_closed ? min_closed_segments : 1);
     if (chosen > max_segments) {
       throw std::invalid_argument(place + ": the scene's accuracy takes " + std::to_string(chosen) +
                                   " segments, " + std::to_string(max_segments) + " are the most");

@@ -36,8 +36,9 @@ struct FiberEntry {
   std::string material_defaults;     ///< values that its material leaves open; empty for none
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< of each from the one before [m]
 
-  double length = 0.0;   ///< of the curve [m]
-  double turning = 0.0;  ///< of the curve in all [rad]; only known where segments are chosen
+  double length = 0.0;    ///< of the curve [m]
+  double turning = 0.0;   ///< of the curve in all [rad]; only known where segments are chosen
+  double limpness = 0.0;  ///< see fiber::limpness(); the same
 
   /// To begin with, at equal distances along the fibre, in between straight lines [m/s]; empty: 0.
   std::vector<Eigen::Vector3d> velocities;

@@ -51,6 +51,7 @@ SceneResolution::SceneResolution(const YamlField& document, double gravity,
   fibers_ = read_fibers(document.get("fibers"), accuracy || is_real_time_);
   for (FiberEntry& fiber : fibers_) {
     fiber.joint_shares = joint_shares(joints, fiber);
+    fiber.limpness = fiber.length > 0.0 ? limpness(fiber.section, fiber.length, gravity) : 0.0;
   }
   if (accuracy) {
     accuracy_ = read_accuracy(*accuracy);

@@ -92,8 +92,8 @@ TEST_F(SimSceneTest, WhatCannotBeHadInRealTimeSaysSo) {
   const SimDescription scene = describe(open_text(line, "real_time: true\n"), takes(0.01, 1));
   EXPECT_EQ(scene.real_time_note, "");
   EXPECT_EQ(scene.real_time_warning.find("real_time: the scene cannot be had in real time; it "
-                                         "takes 3.6 of the time there is on one core, with 1 "
-                                         "substeps, 5 segments of fibre 'cable'"),
+                                         "takes 3 of the time there is on one core, with 1 "
+                                         "substeps, 4 segments of fibre 'cable'"),
             0U)
       << scene.real_time_warning;
   EXPECT_EQ(omissions(make_sim_scene(scene, 1)).front(), scene.real_time_warning);
@@ -127,7 +127,7 @@ TEST_F(SimSceneTest, NumbersThatTakeForEverAreRefused) {
                       "coarser: it takes "),
             0U);
   EXPECT_EQ(error(open_text(line, "accuracy: 1e-13\nsubsteps: 4\n")),
-            "2: fibers[0]: the scene's accuracy takes 9486833 segments, 1000000 are the most "
+            "2: fibers[0]: the scene's accuracy takes 8220503 segments, 1000000 are the most "
             "(fibre 'cable')");
   EXPECT_LE(describe(open_text("{line: {from: [0, 0, 0], to: [0.01, 0, 0]}}", "real_time: true\n"),
                      takes(1e-9))
