@@ -94,46 +94,6 @@ TEST_F(EnvironmentInputsTest, AMessageIsAppliedWholeOrNotAtAll) {
   EXPECT_FALSE(inputs->is_used());
 }
 
-/// What a refused change was to bring is not there after another one that brings something else.
-TEST_F(EnvironmentInputsTest, WhatIsOwedIsSettledByWhatMakesItKnown) {
-  start();
-  const auto changed = [](Obstacle obstacle, std::uint8_t operation, const std::string& from) {
-    obstacle.operation = operation;
-    obstacle.header.frame_id = from;
-    return obstacle;
-  };
-  const auto move_in = [&](const std::string& from) {
-    Obstacle move;
-    move.id = "ball";
-    move.pose.orientation.w = 1.0;
-    return changed(move, Obstacle::MOVE, from);
-  };
-  const auto owes = [&] { return unknown().size(); };
-  EXPECT_EQ(apply({ball("ball")}), "");
-  EXPECT_EQ(owes(), 0U);
-  // A place is known again by the next one.
-  EXPECT_NE(apply({move_in("nowhere")}), "");
-  EXPECT_EQ(owes(), 1U);
-  EXPECT_EQ(apply({changed(ball("ball"), Obstacle::APPEND, "world")}), "");
-  EXPECT_EQ(owes(), 1U);
-  EXPECT_EQ(apply({move_in("world")}), "");
-  EXPECT_EQ(owes(), 0U);
-  // Shapes are not.
-  for (const std::uint8_t refused : {Obstacle::ADD, Obstacle::APPEND}) {
-    EXPECT_NE(apply({changed(ball("ball"), refused, "nowhere")}), "");
-    EXPECT_NE(apply({move_in("nowhere")}), "");
-    EXPECT_EQ(apply({move_in("world")}), "");
-    EXPECT_EQ(owes(), 1U);
-    EXPECT_EQ(apply({changed(ball("ball"), Obstacle::APPEND, "world")}), "");
-    EXPECT_EQ(owes(), 1U);
-    EXPECT_EQ(apply({ball("ball")}), "");
-    EXPECT_EQ(owes(), 0U);
-  }
-  EXPECT_NE(apply({changed(ball("ball"), Obstacle::APPEND, "nowhere")}), "");
-  EXPECT_EQ(apply({removal("ball")}), "");
-  EXPECT_EQ(owes(), 0U);
-}
-
 TEST_F(EnvironmentInputsTest, StampsOfTheFutureAreRefusedByTopicAndService) {
   start_with_topic();
   Obstacle late = ball("late");

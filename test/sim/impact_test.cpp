@@ -265,49 +265,6 @@ std::unique_ptr<Joints> add_target(Rods& rods, Extra extra, const Vector3d& midd
 class ImpactOf : public testing::TestWithParam<Extra> {};
 
 /// Free rods that cross and collide, with friction.
-/// Also where most of the normal impulse of a step is taken back: of a rod that spins about itself.
-TEST(Impact, CoulombHoldsInTheStepsAfterIt) {
-  constexpr double coefficient = 0.3;
-  for (const Integrator integrator : {Integrator::IMPLICIT_EULER, Integrator::BDF2}) {
-    for (const double step : {1.0 / 240.0, 1.0 / 960.0}) {
-      SCOPED_TRACE(testing::Message() << static_cast<int>(integrator) << " " << step);
-      Rods rods;
-      const RodSection thin = solid_round_section(material_preset("power_cable"), 0.004);
-      const RodSection thick = solid_round_section(material_preset("power_cable"), 0.008);
-      rods.add(straight({-0.25, 0.0, 0.1}, {0.25, 0.0, 0.1}, 20), 0.004, thin);
-      rods.add(straight({-0.25, 0.001, 0.13}, {0.25, 0.001, 0.13}, 21), 0.008, thick);
-      Effects all = effects(std::make_unique<Stretch>(), std::make_unique<Bend>(),
-                            std::make_unique<Twist>(rods));
-      for (std::uint32_t i = 0; i < rods.end(0); ++i) {
-        rods.velocities[i] = {0.0, 0.0, 2.0};
-        rods.spins[i] = 2.0;
-      }
-      FiberContact::Options options;
-      options.restitution = 0.0;
-      std::vector<std::unique_ptr<ContactSource>> sources;
-      sources.push_back(std::make_unique<FiberContact>(options));
-      StepperOptions stepping = precise(integrator);
-      Stepper stepper(std::move(rods), std::move(all), stepping,
-                      std::make_unique<Contacts>(
-                          std::move(sources),
-                          std::make_unique<Friction>(Friction::Options{coefficient, 1e-3})));
-      double largest = 0.0;   // normal force
-      std::size_t after = 0;  // contacts in steps after the impact
-      for (double time = 0.0; time < 0.05; time += step) {
-        stepper.step(step);
-        for (const RodForces::ContactForce& force : stepper.forces().contacts) {
-          const double normal = force.normal_force.norm();
-          EXPECT_LE(force.friction_force.norm(), 1.02 * coefficient * normal + 1e-7 * largest)
-              << stepper.time();
-          after += largest > 0.0 && normal < 0.1 * largest ? 1 : 0;
-          largest = std::max(largest, normal);
-        }
-      }
-      EXPECT_GT(after, 10U);
-    }
-  }
-}
-
 TEST_P(ImpactOf, FreeRodsKeepsMomentum) {
   SCOPED_TRACE(seed_message());
   Random random(1);
