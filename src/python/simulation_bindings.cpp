@@ -148,7 +148,7 @@ py::dict report_of(const Simulation& simulation) {
   double force = 0.0;
   simulation.with([&](SimScene& scene) {
     report = scene.stepper->report();
-    force = scene.residual_force();
+    force = scene.residual_force(report.worst);
   });
   py::dict dict;
   dict["iterations"] = report.iterations;

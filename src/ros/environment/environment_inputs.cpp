@@ -26,8 +26,7 @@ void check_stamps(Change& change, double max_ahead) {
     try {
       fiber::with_context(thing.name, [&] { validate_stamp(thing.header.stamp, now, max_ahead); });
     } catch (const std::invalid_argument& error) {
-      change.apply = Prepared<Change::Apply>(
-          [error]() -> Change::Apply { throw std::invalid_argument(error); });
+      change.apply = refusal(error.what());
       return;
     }
   }

@@ -90,12 +90,6 @@ bool is_body(const Marker& marker) {
   return types.count(marker.type) > 0;
 }
 
-/// The making of a change that cannot be.
-Prepared<Change::Apply> refused(const std::string& problem) {
-  return Prepared<Change::Apply>(
-      [problem]() -> Change::Apply { throw std::invalid_argument(problem); });
-}
-
 }  // namespace
 
 Change MarkerObstacles::change_of(std::shared_ptr<const Markers> markers, const ros::Time& now,
@@ -116,7 +110,7 @@ Change MarkerObstacles::change_of(std::shared_ptr<const Markers> markers, const 
                                     ": frame_locked is true in frame " +
                                     fiber::quote(marker.header.frame_id) +
                                     ", it must be false there: obstacles do not follow a frame";
-        return {std::move(touched), {}, refused(problem), patience, {}, {}};
+        return {std::move(touched), {}, refusal(problem), patience, {}, {}};
       }
     }
   }

@@ -8,6 +8,7 @@
 #include <list>
 #include <optional>
 #include <set>
+#include <stdexcept>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -102,6 +103,12 @@ struct Change {
 
   std::string source;  ///< where it comes from, as /diagnostics names it
 };
+
+/// The making of a change that cannot be.
+inline Prepared<Change::Apply> refusal(const std::string& problem) {
+  return Prepared<Change::Apply>(
+      [problem]() -> Change::Apply { throw std::invalid_argument(problem); });
+}
 
 /// Changes of the environment on their way. Each waits for three things: the transforms of its
 /// frames, the preparation of its meshes, and its turn, which comes when no earlier change that

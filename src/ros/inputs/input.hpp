@@ -91,10 +91,10 @@ class Input {
   std::optional<Unknown> unknown() const;
 
  private:
-  void watch_publishers(const std::string& publisher);
   /// Why the fibres are stale: no message comes, or those that come match no other input's.
   enum class Staleness { NONE, SILENT, UNMATCHED };
 
+  void watch_publishers(const std::string& publisher);
   std::vector<FiberMessagePtr> take_placed(const FixedFrame& frame);
   void overtake_placed(std::size_t left);
   void leave_out();

@@ -233,6 +233,11 @@ Vector3d ContactSet::FrictionPoint::slip(const Rods& rods) const {
   return moved - normal * normal.dot(moved);
 }
 
+Vector3d ContactSet::FrictionPoint::force(const Rods& rods, double stick_length) const {
+  const Vector3d slipped = slip(rods);
+  return -max_force * Friction::law(slipped.norm(), stick_length).resistance * slipped;
+}
+
 double ContactSet::energy_of(const Rods& rods, std::size_t contact) const {
   if (contact < obstacle_contacts.size()) {
     return obstacle_contact(obstacle_contacts[contact], obstacle_distances_[contact], nullptr);

@@ -174,6 +174,9 @@ class ContactSet {
     std::optional<SurfaceLevers> levers;  // from the axes to where it acts; none: on the axes
 
     Eigen::Vector3d slip(const Rods& rods) const;
+
+    /// On a [N].
+    Eigen::Vector3d force(const Rods& rods, double stick_length) const;
   };
 
   void relax_initial_overlap(const Rods& rods);

@@ -56,13 +56,11 @@ void ContactSet::add_forces(const Rods& rods, std::vector<RodForces::ContactForc
     force.friction_force += impact.friction / step_;
   }
   for (const FrictionPoint& point : frictions_) {
-    const Vector3d slip = point.slip(rods);
     RodForces::ContactForce& force = force_of(point.points);
     if (force.point.isZero(0.0)) {
       force.point = point_at(rods.positions, point.points.edge_a, point.points.s);
     }
-    force.friction_force -=
-        point.max_force * Friction::law(slip.norm(), stick_length_).resistance * slip;
+    force.friction_force += point.force(rods, stick_length_);
   }
 }
 

@@ -85,14 +85,11 @@ void ContactSet::for_each_obstacle_force(const Rods& rods, const Function& funct
   }
   for (const FrictionPoint& friction : frictions_) {
     if (const MovedShape* const shape = moved_->of_object(friction.points)) {
-      const Vector3d slip = friction.slip(rods);
       Vector3d point = point_at(rods.positions, friction.points.edge_a, friction.points.s);
       if (friction.levers) {
         point += friction.levers->front().arm;
       }
-      function(friction.points, *shape, point,
-               Vector3d(-friction.max_force * Friction::law(slip.norm(), stick_length_).resistance *
-                        slip));
+      function(friction.points, *shape, point, friction.force(rods, stick_length_));
     }
   }
 }

@@ -204,19 +204,20 @@ std::vector<Impact> ContactSet::find_impacts(const Rods& rods,
   is_any_of_impact = false;
   std::vector<Vector3d> frictions(distance_count(), Vector3d::Zero());  // on a [N]
   for (const FrictionPoint& point : frictions_) {
-    const Vector3d slip = point.slip(rods);
-    frictions[point.contact] -=
-        point.max_force * Friction::law(slip.norm(), stick_length_).resistance * slip;
+    frictions[point.contact] += point.force(rods, stick_length_);
   }
   DistanceTerms buffer;
   for (std::size_t i = 0; i < distance_count(); ++i) {
     if (energies_[i] == 0.0) {
       continue;
     }
-    double force = 0.0;  // along the normals of all its points [N]
-    for_each_term(rods, i, buffer, [&](const ContactPoints& /*points*/, const DistanceTerm& term) {
-      force += std::max(0.0, -term.slope);
-    });
+    double force = 0.0;  // along the normals of all points of what may be returned [N]
+    if (may_return(i)) {
+      for_each_term(rods, i, buffer,
+                    [&](const ContactPoints& /*points*/, const DistanceTerm& term) {
+                      force += std::max(0.0, -term.slope);
+                    });
+    }
     for_each_term(rods, i, buffer, [&](const ContactPoints& points, const DistanceTerm& term) {
       if (!(term.pressure > 0.0)) {
         return;

@@ -283,8 +283,7 @@ void SimScene::advance() {
   }
 }
 
-double SimScene::residual_force() const {
-  const IslandReport& worst = frame.worst;
+double SimScene::residual_force(const IslandReport& worst) const {
   const Rods& rods = stepper->rods();
   return worst.residual * rods.masses[rods.first(worst.rod) + worst.node] / step_length();
 }

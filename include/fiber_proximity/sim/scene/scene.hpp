@@ -275,6 +275,7 @@ struct SimScene : SimSettings {
   /// What the steps of the last frame report, the worst of them: unbalanced islands and impacts of
   /// all together, `worst` where most is left, the most iterations and the largest energy gain.
   StepReport frame;
+
   std::string overlap_note;  ///< the overlaps that were separated at the beginning; empty without
 
   /// Of the obstacles that move; null where there are none that fibres touch.
@@ -286,8 +287,8 @@ struct SimScene : SimSettings {
   /// The name of one of them.
   const std::string& object_name(std::uint32_t object) const;
 
-  /// The force that a step of the last frame has left unbalanced at `frame.worst` [N].
-  double residual_force() const;
+  /// The force that a step has left unbalanced where most is left, as it reports that [N].
+  double residual_force(const IslandReport& worst) const;
 
   /// Whether steps may end before forces balance because the scene asks for fewer iterations than
   /// the default.
