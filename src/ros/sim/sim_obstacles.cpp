@@ -88,7 +88,9 @@ void SimObstacles::apply(const fiber::SimDescription& description, fiber::SimSce
 void SimObstacles::begin(const fiber::SimDescription& description, fiber::SimScene& scene) {
   description_ = &description;
   scene_ = &scene;
-  for (const fiber::EnvironmentObject& object : world_.environment()->objects()) {
+  // Held: what is removed below makes another.
+  const std::shared_ptr<const fiber::Environment> environment = world_.environment();
+  for (const fiber::EnvironmentObject& object : environment->objects()) {
     try {
       check({{Operation::ADD, object}});
       fiber::add_obstacle(scene, object);
