@@ -18,11 +18,14 @@ add_library(validation_sim STATIC
   validation/sim/elastica.cpp
   validation/sim/friction_scenes.cpp
   validation/sim/harness_scene.cpp
+  validation/sim/impacts.cpp
   validation/sim/instability.cpp
   validation/sim/joints.cpp
   validation/sim/loads.cpp
   validation/sim/motion.cpp
+  validation/sim/rolling.cpp
   validation/sim/statics.cpp
+  validation/sim/strips.cpp
 )
 target_link_libraries(validation_sim
   PUBLIC fiber_proximity_sim PRIVATE Boost::headers fiber_proximity_options)

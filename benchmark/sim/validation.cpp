@@ -5,11 +5,14 @@
 
 #include "validation/sim/elastica.hpp"
 #include "validation/sim/friction_scenes.hpp"
+#include "validation/sim/impacts.hpp"
 #include "validation/sim/instability.hpp"
 #include "validation/sim/joints.hpp"
 #include "validation/sim/loads.hpp"
 #include "validation/sim/motion.hpp"
+#include "validation/sim/rolling.hpp"
 #include "validation/sim/statics.hpp"
+#include "validation/sim/strips.hpp"
 
 namespace fiber {
 namespace {
@@ -19,6 +22,7 @@ using Report = std::function<void(const Validation&)>;
 constexpr int segments = 50;
 constexpr double two_percent = 0.02;  // of where a rod slides and a shape becomes unstable
 constexpr double half_percent = 0.005;
+constexpr double two_thousandths = 0.002;
 constexpr double free_fall_part = 1e-11;
 
 std::string text(const std::string& what, double value) {
@@ -89,6 +93,12 @@ void validate_loads(const Report& report) {
     report({"stepped cantilever", scene, "drop EI / PL³", segments, exact_stepped_compliance(step),
             simulated_stepped_compliance(segments, step), half_percent});
   }
+  const StripDeflection strip = simulated_strip(35.0 * M_PI / 180.0);
+  report({"cantilever of a flat cable", text("EI 4 and 1, side [°]", 35),
+          "to the stiff side EI / PL³", strip_edges, 1.0 / 3.0 / strip_ratio, strip.stiff / 3.0,
+          half_percent});
+  report({"cantilever of a flat cable", text("EI 4 and 1, side [°]", 35), "across it EI / PL³",
+          strip_edges, 1.0 / 3.0, strip.soft / 3.0, half_percent});
   for (const double place : {0.5, 0.2}) {
     const HangingChain theory = exact_loaded_catenary(1.2, 1.0, place);
     const HangingChain chain = simulated_loaded_catenary(1.2, 1.0, place, segments);
@@ -149,6 +159,11 @@ void validate_motion(const Report& report) {
     const double period = simulated_pendulum_period(segments, angle, 0.01);
     report({"pendulum", text("amplitude [°]", degrees), "period / that of small ones", segments,
             exact_pendulum_ratio(angle), period / rod_pendulum_period()});
+    constexpr double step = 0.005;
+    constexpr double thousandth = 0.001;
+    report({"pendulum that is a rigid part", text("amplitude [°]", degrees),
+            "period / that of small ones", 1, exact_pendulum_ratio(angle),
+            simulated_plug_period(angle, step) / rod_pendulum_period(), thousandth});
   }
   constexpr int steps = 50;
   constexpr double step = 0.01;
@@ -215,6 +230,53 @@ void validate_friction(const Report& report) {
             std::exp(friction * 2.0 * M_PI * turns),
             tension_ratio({turns, edges_per_turn}, friction)});
   }
+  for (const bool turns_large : {true, false}) {
+    const BeltDrive theory = exact_belt_drive(turns_large, friction);
+    const BeltDrive belt = simulated_belt_drive(turns_large, friction);
+    const std::string scene = turns_large ? "the large drum turns" : "the small drum turns";
+    report({"belt around two drums", scene, "ratio of the tensions", belt_edges_per_turn,
+            theory.tension_ratio, belt.tension_ratio, two_percent});
+    if (turns_large) {
+      report({"belt around two drums", scene, "speed / that of the drum's surface",
+              belt_edges_per_turn, theory.speed, belt.speed, two_thousandths});
+    }
+  }
+  for (const double degrees : {10.0, 35.0}) {
+    const double angle = degrees * M_PI / 180.0;
+    const RodOnSlope rod(angle, 0.005, std::tan(angle), Integrator::IMPLICIT_EULER);
+    rod.run(0.25);
+    const double before = rod.speed();
+    rod.run(0.5);
+    report({"rolling", text("slope [°]", degrees), "acceleration / (g sin α)", 8, 2.0 / 3.0,
+            (rod.speed() - before) / 0.5 / (standard_gravity * std::sin(angle))});
+  }
+}
+
+/// What a step allows: the heights of rebounds are of first order in it.
+void validate_impacts(const Report& report) {
+  constexpr double allowed = 0.05;  // of the speed of the fall
+  Drop drop;
+  for (const double restitution : {0.2, 0.7}) {
+    for (const double height : {0.05, 1.0}) {
+      drop.height = height;
+      drop.restitution = restitution;
+      report({"drop on a table",
+              text("restitution", restitution) + ", " + text("height [m]", height),
+              "speed of rebound / of fall", 10, restitution,
+              std::sqrt(std::max(0.0, simulated_rebound(drop)) / height), allowed / restitution});
+    }
+  }
+  for (const Integrator integrator : {Integrator::IMPLICIT_EULER, Integrator::BDF2}) {
+    constexpr double friction = 0.1;
+    const Deflection found = simulated_deflection(integrator, 1.0 / 240.0, 0.2, friction);
+    report({"oblique impact on a table",
+            integrator == Integrator::BDF2 ? "μ = 0.1, BDF2" : "μ = 0.1, implicit Euler",
+            "impulse along / across", 10, friction, found.along / found.across, two_percent});
+  }
+  const Push push = simulated_push(Integrator::IMPLICIT_EULER);
+  constexpr double felt_part = 1e-4;
+  report({"box that pushes a rod", "μ = 0.3, with its impact", "impulse of the box [N s]", 20,
+          push.momentum.norm(), push.impulse.norm(), felt_part});
 }
 
 }  // namespace
@@ -227,6 +289,7 @@ void validate_simulation(const Report& report) {
   validate_motion(report);
   validate_instability(report);
   validate_friction(report);
+  validate_impacts(report);
 }
 
 }  // namespace fiber

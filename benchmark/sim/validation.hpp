@@ -18,7 +18,7 @@ struct Validation {
   double error() const { return simulated / theory - 1.0; }
 };
 
-/// Simulates all of them, one after the other; some seconds.
+/// Simulates all of them, one after the other; less than a minute.
 void validate_simulation(const std::function<void(const Validation&)>& report);
 
 }  // namespace fiber

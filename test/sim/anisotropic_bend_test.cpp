@@ -6,74 +6,25 @@
 #include <utility>
 
 #include "fiber_proximity/sim/effects.hpp"
-#include "fiber_proximity/sim/loads.hpp"
 #include "src/sim/effects/natural_bend.hpp"
 #include "test/sim/effect_derivatives.hpp"
 #include "test/sim/random_rods.hpp"
 #include "test/support/error_of.hpp"
 #include "validation/sim/rod_scene.hpp"
+#include "validation/sim/strips.hpp"
 
 namespace fiber::test {
 namespace {
 
 using Eigen::Vector3d;
 
-constexpr int strip_edges = 50;
-constexpr double strip_ratio = 4.0;
-
-RodSection strip(double times) { return {1e5, 1.0, 0.8, 1.0, 1e-4, times}; }
-
-/// Effects of a rod of 1 m along x, clamped at its first node, and its last one loaded.
-struct StripScene {
-  Rods rods;
-  Effects effects;
-};
-
-StripScene strip_scene(Rods rods, const Vector3d& side, const Vector3d& force) {
-  StripScene made{std::move(rods), {}};
-  made.effects = effects(std::make_unique<Stretch>(), std::make_unique<Bend>(),
-                         std::make_unique<Twist>(made.rods));
-  if (side != Vector3d::Zero()) {
-    made.rods.set_stiff_side(0, side);
-    made.effects.push_back(std::make_unique<AnisotropicBend>());
-  }
-  auto loads = std::make_unique<Loads>();
-  Loads::Load load;
-  load.node = strip_edges;
-  load.force = TimeTable<Vector3d>(force);
-  loads->add(made.rods, load);
-  made.effects.push_back(std::move(loads));
-  made.effects.push_back(
-      hold(made.rods, {clamp(0, {Vector3d::Zero(), Vector3d::UnitX(), made.rods.directors[0]})}));
-  return made;
-}
-
-Vector3d settled_tip(StripScene scene) {
-  Stepper stepper(scene.rods, std::move(scene.effects), precise());
-  settle(stepper);
-  return stepper.rods().positions[strip_edges];
-}
-
-Rods rod_of(const RodSection& section) {
-  Rods rods;
-  rods.add(straight({0, 0, 0}, {1, 0, 0}, strip_edges), 0.01, section);
-  return rods;
-}
-
 /// Whatever side it is: along it so many times as stiff, across it as it was, each for itself.
 TEST(AnisotropicBend, ACantileverGivesWayByItsTwoStiffnesses) {
-  constexpr double force = 1e-3;
   for (const double degrees : {0.0, 35.0, 90.0}) {
     SCOPED_TRACE(degrees);
-    const double angle = degrees * M_PI / 180.0;
-    const Vector3d side(0.3, std::cos(angle),
-                        std::sin(angle));  // what is along the rod is left out
-    const Vector3d stiff(0.0, std::cos(angle), std::sin(angle));
-    const Vector3d soft(0.0, -std::sin(angle), std::cos(angle));
-    const Vector3d tip =
-        settled_tip(strip_scene(rod_of(strip(strip_ratio)), side, force * (stiff + soft)));
-    EXPECT_NEAR(tip.dot(soft), force / 3.0, 0.005 * force / 3.0);
-    EXPECT_NEAR(tip.dot(stiff), force / 3.0 / strip_ratio, 0.005 * force / 3.0 / strip_ratio);
+    const StripDeflection found = simulated_strip(degrees * M_PI / 180.0);
+    EXPECT_NEAR(found.soft, 1.0, 0.005);
+    EXPECT_NEAR(found.stiff, 1.0 / strip_ratio, 0.005 / strip_ratio);
   }
 }
 
@@ -82,10 +33,10 @@ TEST(AnisotropicBend, BendsFarAsARoundRodOfThatStiffness) {
   RodSection round = strip(1.0);
   round.bending_stiffness *= strip_ratio;
   const Vector3d force(0.0, 0.0, -5.0 * round.bending_stiffness);
-  const Vector3d expected = settled_tip(strip_scene(rod_of(round), Vector3d::Zero(), force));
+  const Vector3d expected = settled_tip(strip_scene(strip_of(round), Vector3d::Zero(), force));
   ASSERT_LT(expected.z(), -0.6) << "it bends far";
   const Vector3d tip =
-      settled_tip(strip_scene(rod_of(strip(strip_ratio)), Vector3d::UnitZ(), force));
+      settled_tip(strip_scene(strip_of(strip(strip_ratio)), Vector3d::UnitZ(), force));
   EXPECT_LE((tip - expected).norm(), 0.005);
 }
 
@@ -94,7 +45,7 @@ TEST(AnisotropicBend, IsDampedAsARoundRodOfThatStiffness) {
   RodSection round = strip(1.0);
   round.bending_stiffness *= strip_ratio;
   const auto tips = [](const RodSection& section, const Vector3d& side, double relaxation_time) {
-    StripScene scene = strip_scene(rod_of(section), side, Vector3d::Zero());
+    StripScene scene = strip_scene(strip_of(section), side, Vector3d::Zero());
     const auto damping = std::make_shared<Damping>(relaxation_time);
     scene.effects.push_back(damping);
     scene.effects.push_back(std::make_shared<AnisotropicDamping>(damping));
@@ -127,7 +78,7 @@ TEST(AnisotropicBend, IsDampedAsARoundRodOfThatStiffness) {
 TEST(AnisotropicBend, OfPartsGivesWayInSeries) {
   constexpr double force = 1e-3;
   constexpr double step = 0.413;
-  Rods rods = rod_of(strip(strip_ratio));
+  Rods rods = strip_of(strip(strip_ratio));
   rods.set_sections(0, {{{step, 1.0}, strip(1.0)}});
   const Vector3d tip =
       settled_tip(strip_scene(std::move(rods), Vector3d::UnitZ(), force * Vector3d(0.0, 1.0, 1.0)));
@@ -142,7 +93,7 @@ TEST(AnisotropicBend, OfPartsGivesWayInSeries) {
 TEST(AnisotropicBend, TheSideTurnsWithTheClamp) {
   constexpr double force = 1e-3;
   StripScene turned =
-      strip_scene(rod_of(strip(strip_ratio)), Vector3d::UnitZ(), {0.0, 0.0, -force});
+      strip_scene(strip_of(strip(strip_ratio)), Vector3d::UnitZ(), {0.0, 0.0, -force});
   turned.effects.pop_back();
   const Vector3d director = turned.rods.directors[0];
   turned.effects.push_back(
@@ -215,7 +166,7 @@ TEST(AnisotropicBend, DerivativesAreThoseOfTheEnergy) {
 }
 
 TEST(AnisotropicBend, SidesThatCannotBeAreRefused) {
-  Rods rods = rod_of(strip(strip_ratio));
+  Rods rods = strip_of(strip(strip_ratio));
   const auto error = [&](const Vector3d& side) {
     return error_of([&] { rods.set_stiff_side(0, side); });
   };

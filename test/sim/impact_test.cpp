@@ -10,58 +10,14 @@
 
 #include "test/sim/extra_scene.hpp"
 #include "test/support/random.hpp"
-#include "validation/sim/contact_scenes.hpp"
+#include "validation/sim/impacts.hpp"
 
 namespace fiber::test {
 namespace {
 
-constexpr double impact_radius = 0.005;
-constexpr double touching_height = 1.05 * impact_radius;  // where the barrier begins [m]
-
-/// @param velocity of the table, which is an obstacle that moves unless it is 0 [m/s]
-std::unique_ptr<Contacts> table_with(double restitution, std::shared_ptr<Friction> friction,
-                                     const Vector3d& velocity = Vector3d::Zero()) {
-  EnvironmentContact::Options options;
-  options.restitution = restitution;
-  std::vector<std::unique_ptr<ContactSource>> sources;
-  if (!velocity.isZero()) {
-    const auto motions = std::make_shared<ObstacleMotions>(
-        std::vector<MovingObstacle>{going(HalfSpaceShape{}, Vector3d::Zero(), velocity)}, 0);
-    sources.push_back(std::make_unique<MovingObstacleContact>(motions, options));
-    return std::make_unique<Contacts>(std::move(sources), std::move(friction), motions);
-  }
-  sources.push_back(
-      std::make_unique<EnvironmentContact>(environment_of(HalfSpaceShape{}), options));
-  return std::make_unique<Contacts>(std::move(sources), std::move(friction));
-}
-
-/// A level rod at a height above where it touches the table [m].
-Rods level_rod(const char* material, double height) {
-  Rods rods;
-  const double z = height + touching_height;
-  rods.add(straight({0.0, 0.0, z}, {0.0, 0.2, z}, 10), impact_radius,
-           solid_round_section(material_preset(material), impact_radius));
-  return rods;
-}
-
-double mean_height(const Rods& rods) {
-  double sum = 0.0;
-  for (const Vector3d& position : rods.positions) {
-    sum += position.z();
-  }
-  return sum / static_cast<double>(rods.positions.size()) - touching_height;
-}
-
-struct Drop {
-  const char* material;
-  Integrator integrator;
-  Vector3d velocity = Vector3d::Zero();  // of the table, and of the rod as it begins [m/s]
-};
-
-std::ostream& operator<<(std::ostream& out, const Drop& drop) {
-  return out << drop.material
-             << (drop.integrator == Integrator::BDF2 ? ", BDF2" : ", implicit Euler")
-             << (drop.velocity.isZero() ? "" : ", on a table that moves");
+std::string name_of(const Drop& drop) {
+  return drop.material + (drop.integrator == Integrator::BDF2 ? "_bdf2" : "_implicit_euler") +
+         (drop.velocity.isZero() ? "" : "_on_a_table_that_moves");
 }
 
 class DropOf : public testing::TestWithParam<Drop> {};
@@ -118,28 +74,16 @@ TEST_P(DropOf, ReboundsByItsRestitutionAndNeverHigherThanItFell) {
       for (const int substeps : {4, 16, 64}) {
         SCOPED_TRACE(testing::Message() << height << " m, restitution " << restitution << ", "
                                         << substeps << " substeps");
-        const double step = 1.0 / (60.0 * substeps);
-        StepperOptions options;
-        options.integrator = GetParam().integrator;
-        Rods rods = level_rod(GetParam().material, height);
-        std::fill(rods.velocities.begin(), rods.velocities.end(), GetParam().velocity);
-        Stepper stepper(rods, elastic(standard_gravity), options,
-                        table_with(restitution, nullptr, GetParam().velocity));
-        const double falls = std::sqrt(2.0 * height / standard_gravity);
-        double highest = 0.0;
-        bool has_hit = false;
-        for (double time = 0.0; time < falls * (1.1 + std::max(0.3, 1.2 * restitution));
-             time += step) {
-          stepper.step(step);
-          has_hit |= stepper.report().impacts > 0;
-          const double now = mean_height(stepper.rods()) - stepper.time() * GetParam().velocity.z();
-          highest = has_hit ? std::max(highest, now) : highest;
-        }
-        EXPECT_TRUE(has_hit);
+        Drop drop = GetParam();
+        drop.height = height;
+        drop.restitution = restitution;
+        drop.step = 1.0 / (60.0 * substeps);
+        const double highest = simulated_rebound(drop);
+        EXPECT_GE(highest, -impact_radius) << "it hits";
         EXPECT_LE(highest, height);
         // The first step of the way back is not yet at its end, and the way up is of first order.
-        const double first_order = GetParam().integrator == Integrator::BDF2 ? 0.5 : 1.0;
-        const double allowed = 0.05 + first_order * restitution * step / falls;
+        const double first_order = drop.integrator == Integrator::BDF2 ? 0.5 : 1.0;
+        const double allowed = 0.05 + first_order * restitution * drop.step / drop.fall();
         EXPECT_NEAR(std::sqrt(std::max(0.0, highest) / height), restitution, allowed);
       }
     }
@@ -152,7 +96,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Drop{"power_cable", Integrator::BDF2}, Drop{"rope", Integrator::IMPLICIT_EULER},
                     Drop{"hair", Integrator::BDF2}, Drop{"silicone_tube", Integrator::BDF2},
                     Drop{"silicone_tube", Integrator::IMPLICIT_EULER, {0.3, 0.2, 0.5}},
-                    Drop{"power_cable", Integrator::BDF2, {0.0, 0.0, -0.4}}));
+                    Drop{"power_cable", Integrator::BDF2, {0.0, 0.0, -0.4}}),
+    [](const auto& drop) { return name_of(drop.param); });
 
 /// However short the steps, the energy of all there is never rises with implicit Euler, but for the
 /// work of a table that moves, as the force on it tells.
@@ -195,32 +140,16 @@ TEST(Impact, OfARodOnATableNeverAddsEnergy) {
 /// A rod that slides into a table: friction's impulse is that of the force which presses.
 TEST(Impact, ItsFrictionIsCoulombs) {
   constexpr double coefficient = 0.1;
-  const auto slide = [](Integrator integrator, double step, double restitution) {
-    SCOPED_TRACE(testing::Message() << static_cast<int>(integrator) << ", " << step
-                                    << " s, restitution " << restitution);
-    Rods rods = level_rod("silicone_tube", 0.02);
-    std::fill(rods.velocities.begin(), rods.velocities.end(), Vector3d(0.0, 2.0, -2.0));
-    const Vector3d before = momentum_of(rods);
-    StepperOptions options;
-    options.integrator = integrator;
-    Stepper stepper(
-        rods, elastic(), options,
-        table_with(restitution, std::make_shared<Friction>(Friction::Options{coefficient})));
-    std::uint32_t impacts = 0;
-    for (double time = 0.0; time < 0.05; time += step) {
-      stepper.step(step);
-      impacts += stepper.report().impacts;
-    }
-    const Vector3d impulse = momentum_of(stepper.rods()) - before;
-    EXPECT_GT(impacts, 0U);
-    EXPECT_GT(impulse.z(), 0.99 * -before.z());
-    EXPECT_LE(-impulse.y(), 1.02 * coefficient * impulse.z());
-    EXPECT_GE(-impulse.y(), 0.98 * coefficient * impulse.z());
-  };
   for (const Integrator integrator : {Integrator::IMPLICIT_EULER, Integrator::BDF2}) {
     for (const double step : {1.0 / 60.0, 1.0 / 240.0, 1e-3, 1.0 / 4000.0, 1.0 / 16000.0}) {
       for (const double restitution : {0.0, 0.2}) {
-        slide(integrator, step, restitution);
+        SCOPED_TRACE(testing::Message() << static_cast<int>(integrator) << ", " << step
+                                        << " s, restitution " << restitution);
+        const Deflection found = simulated_deflection(integrator, step, restitution, coefficient);
+        EXPECT_TRUE(found.has_hit);
+        EXPECT_GT(found.across, 0.99 * found.approach);
+        EXPECT_LE(found.along, 1.02 * coefficient * found.across);
+        EXPECT_GE(found.along, 0.98 * coefficient * found.across);
       }
     }
   }

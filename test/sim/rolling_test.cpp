@@ -1,6 +1,8 @@
 // Where cross-sections have a rotation of their own, friction acts at the surface: rods roll down
 // slopes and between others, and what collides keeps its angular momentum, spins included.
 
+#include "validation/sim/rolling.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,54 +19,6 @@ using Eigen::Vector3d;
 std::ostream& print_integrator(std::ostream& out, Integrator integrator) {
   return out << (integrator == Integrator::BDF2 ? "BDF2" : "implicit Euler");
 }
-
-/// A rod across a slope, at rest: the slope goes down along x, and z is its normal.
-class RodOnSlope {
- public:
-  RodOnSlope(double angle, double radius, double friction, Integrator integrator) {
-    Rods rods;
-    rods.add(straight({0.0, 0.0, radius}, {0.0, 40.0 * radius, radius}, 8), radius, rubber(radius));
-    Effects effects = elastic();
-    effects.push_back(std::make_unique<Gravity>(standard_gravity *
-                                                Vector3d(std::sin(angle), 0.0, -std::cos(angle))));
-    effects.push_back(std::make_unique<Twist>(rods));
-    StepperOptions options;
-    options.integrator = integrator;
-    stepper_ = std::make_unique<Stepper>(
-        rods, std::move(effects), options,
-        contacts_with(environment_of(HalfSpaceShape{Vector3d::UnitZ(), 0.0}), friction));
-  }
-
-  /// @param time [s]
-  void run(double time) const {
-    constexpr double step = 1.0 / 240.0;
-    for (int i = 0; i < std::lround(time / step); ++i) {
-      stepper_->step(step);
-    }
-  }
-
-  /// Of the whole rod, downwards [m/s].
-  double speed() const {
-    double mass = 0.0;
-    for (const double each : stepper_->rods().masses) {
-      mass += each;
-    }
-    return momentum_of(stepper_->rods()).x() / mass;
-  }
-
-  /// Of all sections, in the sense in which the rod rolls downwards [rad/s].
-  double mean_spin() const {
-    const std::vector<double>& spins = stepper_->rods().spins;
-    double sum = 0.0;
-    for (std::size_t edge = 0; edge + 1 < spins.size(); ++edge) {
-      sum += spins[edge];
-    }
-    return sum / static_cast<double>(spins.size() - 1);
-  }
-
- private:
-  std::unique_ptr<Stepper> stepper_;
-};
 
 struct Slope {
   double angle;  // [°]

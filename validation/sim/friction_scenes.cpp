@@ -222,11 +222,10 @@ std::vector<Vector3d> around_drums(int edges_per_small_turn) {
 }  // namespace
 
 BeltDrive simulated_belt_drive(bool turns_large, double friction) {
-  constexpr int edges_per_turn = 72;
   constexpr double strain = 2e-3;
   constexpr int steps_per_edge = 48;
   constexpr int edges_before = 5;  // until all of it slides
-  const std::vector<Vector3d> points = around_drums(edges_per_turn);
+  const std::vector<Vector3d> points = around_drums(belt_edges_per_turn);
   Rods rods;
   rods.add(points, belt_radius, solid_round_section(material_preset("rope"), belt_radius));
   rods.closed = {1};

@@ -57,6 +57,8 @@ struct BeltDrive {
   double speed;          ///< along itself, over that of the surface of the drum that turns
 };
 
+constexpr int belt_edges_per_turn = 72;  ///< of the small drum
+
 /// A closed rope, a little too short, around a drum and one of half its size.
 /// @param turns_large whether the large drum turns, and not the small one
 BeltDrive simulated_belt_drive(bool turns_large, double friction);
