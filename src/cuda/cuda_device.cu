@@ -4,6 +4,7 @@
 #include <cub/device/device_radix_sort.cuh>
 #include <cub/device/device_scan.cuh>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -138,11 +139,17 @@ class CudaExecutor {
     return std::make_shared<PageLock>(data, bytes);
   }
 
+  /// That of the thread that asks, as all calls of CUDA's are.
+  std::optional<int> gpu() const {
+    int own = 0;
+    check(cudaGetDevice(&own));
+    return own;
+  }
+
   void require_own(const void* pointer) {
     cudaPointerAttributes attributes;
     check(cudaPointerGetAttributes(&attributes, pointer));
-    int own = 0;
-    check(cudaGetDevice(&own));
+    const int own = *gpu();
     const bool is_readable =
         attributes.type == cudaMemoryTypeDevice || attributes.type == cudaMemoryTypeManaged;
     if (!is_readable || attributes.device != own) {

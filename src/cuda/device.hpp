@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "fiber_proximity/export.hpp"
@@ -132,6 +133,9 @@ class Device {
   virtual std::shared_ptr<void> make_array(const void* from, std::size_t bytes) = 0;
   /// Copies from the device.
   virtual void read(const void* from, std::size_t bytes, void* to) = 0;
+
+  /// Which GPU it is, as CUDA counts them; nothing for this processor.
+  virtual std::optional<int> gpu() const = 0;
 
   /// [bytes] that pairs take, beside trees
   virtual std::size_t memory_bytes() const = 0;

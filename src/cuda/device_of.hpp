@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -124,6 +125,8 @@ class DeviceOf final : public Device {
   void read(const void* from, std::size_t bytes, void* to) override {
     executor_->download_from(static_cast<const char*>(from), bytes, static_cast<char*>(to));
   }
+
+  std::optional<int> gpu() const override { return executor_->gpu(); }
 
   std::size_t memory_bytes() const override {
     return pairs_.bytes() + count_.bytes() + begins_.bytes() + touching_.bytes() +

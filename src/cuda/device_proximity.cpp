@@ -142,6 +142,8 @@ DeviceProximity::HostArrays DeviceProximity::query_to_host(const Options& option
           found.candidate_begins};
 }
 
+std::optional<int> DeviceProximity::gpu() const { return device_->gpu(); }
+
 double DeviceProximity::device_seconds() const {
   return tree_->tree->seconds() + device_->seconds();
 }

@@ -21,6 +21,7 @@ namespace fiber {
 /// - send(buffer, first, count, host_buffer), which goes on while kernels work, until
 ///   wait_for_sent(): what is sent must be there already
 /// - lock_pages(data, bytes), for as long as the result is held
+/// - gpu(), which of them it is, if any
 /// - require_own(pointer), which throws std::invalid_argument where the device cannot read, and
 ///   wait_for_others(), until what others have given the device is done
 /// - for_each(count, f), which calls f(index) for 0 … count − 1, and for_each_warp(count, f), which

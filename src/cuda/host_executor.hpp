@@ -6,6 +6,7 @@
 #include <memory>
 #include <new>
 #include <numeric>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -77,6 +78,7 @@ class HostExecutor {
     return {const_cast<void*>(data), [](void*) {}};
   }
 
+  std::optional<int> gpu() const { return std::nullopt; }
   void require_own(const void* /*pointer*/) {}
   void wait_for_others() {}
 

@@ -13,41 +13,11 @@
 #include "src/cuda/device.hpp"
 #include "src/python/arrays.hpp"
 #include "src/python/bindings.hpp"
+#include "src/python/device_arrays.hpp"
 #include "src/text/quote.hpp"
 
 namespace fiber::python {
 namespace {
-
-/// Points as __cuda_array_interface__ tells of them.
-struct CudaPoints {
-  std::uintptr_t address = 0;
-  bool is_single = false;
-
-  /// @throws py::type_error for numbers of another type, std::invalid_argument for another shape
-  CudaPoints(const py::dict& interface, std::size_t point_count) {
-    const auto shape = interface["shape"].cast<std::vector<std::int64_t>>();
-    if (shape.size() != 2 || shape[0] != static_cast<std::int64_t>(point_count) || shape[1] != 3) {
-      throw std::invalid_argument("points must have the shape (" + std::to_string(point_count) +
-                                  ", 3), they have " +
-                                  py::str(interface["shape"]).cast<std::string>());
-    }
-    const auto type = interface["typestr"].cast<std::string>();
-    if (type != "<f4" && type != "<f8") {
-      throw py::type_error("points on a GPU must be float32 or float64, they are " + quote(type));
-    }
-    is_single = type == "<f4";
-    const std::int64_t size = is_single ? 4 : 8;
-    if (interface.contains("strides") && !interface["strides"].is_none() && point_count > 0 &&
-        interface["strides"].cast<std::vector<std::int64_t>>() !=
-            std::vector<std::int64_t>{3 * size, size}) {
-      throw std::invalid_argument("points on a GPU must lie one after the other, in C order");
-    }
-    if (interface.contains("mask") && !interface["mask"].is_none()) {
-      throw py::type_error("points are masked");
-    }
-    address = interface["data"].cast<py::tuple>()[0].cast<std::uintptr_t>();
-  }
-};
 
 std::unique_ptr<Device> device_of(const std::string& name) {
   if (name == "gpu") {
@@ -62,28 +32,26 @@ std::unique_ptr<Device> device_of(const std::string& name) {
 /// One of the fibres' engine on the GPU, as Python has it.
 class PythonDeviceProximity {
  public:
-  PythonDeviceProximity(const py::object& offsets, const py::object& radii, std::string device,
-                        const py::object& candidates)
-      : device_(std::move(device)),
-        proximity_(candidates.is_none()
-                       ? std::make_unique<DeviceProximity>(device_of(device_),
+  PythonDeviceProximity(const py::object& offsets, const py::object& radii,
+                        const std::string& device, const py::object& candidates)
+      : proximity_(candidates.is_none()
+                       ? std::make_unique<DeviceProximity>(device_of(device),
                                                            to_indices(offsets, "offsets"),
                                                            to_numbers(radii, "radii"))
                        : std::make_unique<DeviceProximity>(
-                             device_of(device_), to_indices(offsets, "offsets"),
+                             device_of(device), to_indices(offsets, "offsets"),
                              to_numbers(radii, "radii"), to_indices(candidates, "candidates"))) {}
 
   void update(const py::object& points) {
-    if (py::hasattr(points, "__cuda_array_interface__")) {
-      const CudaPoints on_device(points.attr("__cuda_array_interface__").cast<py::dict>(),
-                                 proximity_->point_count());
+    if (const auto on_device =
+            DevicePoints::of(points, proximity_->gpu().has_value(), proximity_->point_count())) {
       const WithoutPythonLock others_may_run;
       const std::lock_guard<std::mutex> lock(mutex_);
       ++generation_;
-      if (on_device.is_single) {
-        proximity_->update(reinterpret_cast<const float*>(on_device.address));
+      if (on_device->is_single) {
+        proximity_->update(reinterpret_cast<const float*>(on_device->address));
       } else {
-        proximity_->update(reinterpret_cast<const double*>(on_device.address));
+        proximity_->update(reinterpret_cast<const double*>(on_device->address));
       }
       return;
     }
@@ -127,11 +95,10 @@ class PythonDeviceProximity {
     call(*proximity_);
   }
 
-  bool is_on_gpu() const { return device_ == "gpu"; }
+  std::optional<int> gpu() const { return proximity_->gpu(); }
   double device_seconds() const { return proximity_->device_seconds(); }
 
  private:
-  std::string device_;
   std::unique_ptr<DeviceProximity> proximity_;
   std::mutex mutex_;
   std::uint64_t generation_ = 0;
@@ -156,18 +123,11 @@ class PythonDeviceContacts {
 
   std::uint32_t count() const { return contacts_.count; }
 
+  /// @throws std::runtime_error for contacts that are gone
   template <class Value>
-  py::dict interface(const Value* values, const char* type) const {
+  DeviceValues values(const Value* data) const {
     of_->with_current(generation_, [](DeviceProximity&) {});
-    if (!of_->is_on_gpu()) {
-      throw py::attribute_error("contacts of the device 'host' are on no GPU: use to_host()");
-    }
-    py::dict interface;
-    interface["shape"] = py::make_tuple(contacts_.count);
-    interface["typestr"] = type;
-    interface["data"] = py::make_tuple(reinterpret_cast<std::uintptr_t>(values), true);
-    interface["version"] = 3;
-    return interface;
+    return {data, contacts_.count, sizeof(Value), of_->gpu()};
   }
 
   py::dict to_host() const {
@@ -198,29 +158,52 @@ class PythonDeviceContacts {
   DeviceProximity::Contacts contacts_;
 };
 
-/// One array of contacts, for whoever reads __cuda_array_interface__.
+/// One array of contacts.
 struct PythonDeviceArray {
   std::shared_ptr<PythonDeviceContacts> contacts;
-  py::dict (*interface)(const PythonDeviceContacts&);
+  DeviceValues (*values_of)(const PythonDeviceContacts&);
+
+  DeviceValues values() const { return values_of(*contacts); }
 };
 
 template <auto member>
 PythonDeviceArray array_of(const std::shared_ptr<PythonDeviceContacts>& contacts) {
-  return {contacts, [](const PythonDeviceContacts& of) {
-            const auto* const values = of.contacts().*member;
-            return of.interface(values, sizeof(*values) == sizeof(double) ? "<f8" : "<u4");
-          }};
+  return {contacts,
+          [](const PythonDeviceContacts& of) { return of.values(of.contacts().*member); }};
+}
+
+/// @throws py::buffer_error for what only a copy could be
+py::capsule dlpack_of(const PythonDeviceArray& array, const py::object& /*stream*/,
+                      const py::object& /*max_version*/, const py::object& dl_device,
+                      const py::object& copy) {
+  const DeviceValues values = array.values();
+  if (!dl_device.is_none() && !to_dlpack_device(values).equal(dl_device)) {
+    throw py::buffer_error("the array is on the device " +
+                           py::str(to_dlpack_device(values)).cast<std::string>() +
+                           " and goes to no other");
+  }
+  if (!copy.is_none() && copy.cast<bool>()) {
+    throw py::buffer_error("the array is shared, never copied");
+  }
+  return to_dlpack(values, array.contacts);
 }
 
 }  // namespace
 
 void bind_device_proximity(py::module& module) {
-  py::class_<PythonDeviceArray>(module, "DeviceArray",
-                                "Values on a GPU, to be read by whoever takes such: cupy, torch, "
-                                "warp, numba. They cannot be written.")
+  py::class_<PythonDeviceArray>(
+      module, "DeviceArray",
+      "Values on a GPU, to be read by whoever takes such, by DLPack or CUDA's array interface: "
+      "cupy, torch, jax, warp, numba. They are not to be written.")
       .def_property_readonly(
           "__cuda_array_interface__",
-          [](const PythonDeviceArray& array) { return array.interface(*array.contacts); })
+          [](const PythonDeviceArray& array) { return to_cuda_array_interface(array.values()); })
+      // They are written when query() returns: no stream has to wait.
+      .def("__dlpack__", &dlpack_of, py::kw_only(), py::arg("stream") = py::none(),
+           py::arg("max_version") = py::none(), py::arg("dl_device") = py::none(),
+           py::arg("copy") = py::none())
+      .def("__dlpack_device__",
+           [](const PythonDeviceArray& array) { return to_dlpack_device(array.values()); })
       .def("__len__", [](const PythonDeviceArray& array) { return array.contacts->count(); });
 
   using Contacts = std::shared_ptr<PythonDeviceContacts>;
@@ -272,10 +255,11 @@ candidates : array (candidates + 1,) of int, optional
            py::arg("offsets"), py::arg("radii"), py::arg("device") = "gpu",
            py::arg("candidates") = py::none())
       .def("update", &PythonDeviceProximity::update, py::arg("points"), R"(
-Takes the points, (n, 3) [m]: anything with ``__cuda_array_interface__`` of float32 or float64 in C
-order (cupy, torch, warp, numba), or an array on the host.
+Takes the points, (n, 3) [m]: an array on the GPU of float32 or float64 in C order, that offers
+``__cuda_array_interface__`` or ``__dlpack__`` (cupy, torch, jax, warp, numba), or one on the host.
 
-Raises ValueError for another shape, and for coordinates that are not finite.
+Raises ValueError for another shape or order, and for coordinates that are not finite, TypeError
+for other numbers.
 )")
       .def(
           "query",

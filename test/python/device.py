@@ -9,13 +9,27 @@ import fiber_proximity as fp
 
 
 class OnDevice:
-    """Points as one who has them on a GPU offers them."""
+    """Points as one who has them on a GPU offers them, by CUDA's array interface."""
 
     def __init__(self, points, **changed):
         self.points = points
         self.__cuda_array_interface__ = {
             'shape': points.shape, 'typestr': points.dtype.str, 'data': (points.ctypes.data, False),
             'version': 3, **changed}
+
+
+class ByDLPack:
+    """The same by DLPack alone."""
+
+    def __init__(self, points, device=(1, 0)):
+        self.points = points
+        self.device = device
+
+    def __dlpack__(self, stream=None):
+        return self.points.__dlpack__()
+
+    def __dlpack_device__(self):
+        return self.device
 
 
 def walks(seed, fibers=20, points=50):
@@ -30,9 +44,13 @@ class Device(unittest.TestCase):
         proximity = fp.DeviceProximity(offsets, 0.01, device='host')
         for kind in np.float32, np.float64:
             of_kind = np.ascontiguousarray(points, kind)
+            proximity.update(ByDLPack(of_kind))
+            by_dlpack = proximity.query(margin=0.005, neighbour_skip=2).to_host()
             proximity.update(OnDevice(of_kind))
             found = proximity.query(margin=0.005, neighbour_skip=2)
             arrays = found.to_host()
+            for name, values in arrays.items():
+                np.testing.assert_array_equal(by_dlpack[name], values)
             fibers = fp.Fibers(of_kind.astype(float), offsets, 0.01)
             expected = fp.Engine(fibers).contacts(margin=0.005, neighbour_skip=2)
             self.assertGreater(len(found), 100)
@@ -68,6 +86,28 @@ class Device(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, 'candidate 0, its point 31: z is nan'):
             proximity.update(OnDevice(points))
 
+    def test_gives_its_arrays_by_dlpack(self):
+        points, offsets = walks(6)
+        proximity = fp.DeviceProximity(offsets, 0.01, device='host')
+        proximity.update(points)
+        contacts = proximity.query()
+        arrays = contacts.to_host()
+        for name, type in ('a', np.uint32), ('b', np.uint32), ('s', float), ('t', float), ('distance', float):
+            array = getattr(contacts, name)
+            self.assertEqual(array.__dlpack_device__(), (1, 0))
+            shared = np.from_dlpack(array)
+            self.assertEqual(shared.dtype, type)
+            np.testing.assert_array_equal(shared, arrays[name])
+            with self.assertRaisesRegex(BufferError, r'on the device \(1, 0\)'):
+                array.__dlpack__(dl_device=(2, 0))
+            with self.assertRaisesRegex(BufferError, 'never copied'):
+                array.__dlpack__(copy=True)
+            array.__dlpack__(stream=None, max_version=(1, 0), dl_device=(1, 0), copy=False)  # nobody takes it
+        # It lives as long as those who have taken it.
+        last = np.from_dlpack(contacts.distance)
+        del proximity, contacts, array
+        np.testing.assert_array_equal(last, arrays['distance'])
+
     def test_takes_points_of_the_host(self):
         points, offsets = walks(2)
         proximity = fp.DeviceProximity(offsets, 0.01, device='host')
@@ -85,6 +125,8 @@ class Device(unittest.TestCase):
         proximity.query()
         with self.assertRaisesRegex(RuntimeError, 'these contacts are gone'):
             first.to_host()
+        with self.assertRaisesRegex(RuntimeError, 'these contacts are gone'):
+            first.a.__dlpack__()
 
     def test_refuses_what_is_not_allowed(self):
         points, offsets = walks(4)
@@ -97,6 +139,18 @@ class Device(unittest.TestCase):
             proximity.update(OnDevice(points, strides=(8, 8000)))
         with self.assertRaisesRegex(TypeError, 'masked'):
             proximity.update(OnDevice(points, mask=points))
+        with self.assertRaisesRegex(ValueError, r'shape \(1000, 3\)'):
+            proximity.update(ByDLPack(points.ravel()))
+        with self.assertRaisesRegex(TypeError, 'float32 or float64, they are .* 16 bits'):
+            proximity.update(ByDLPack(points.astype(np.float16)))
+        with self.assertRaisesRegex(TypeError, 'float32 or float64'):
+            proximity.update(ByDLPack(points.astype(np.int64)))
+        with self.assertRaisesRegex(ValueError, 'C order'):
+            proximity.update(ByDLPack(np.asfortranarray(points)))
+        with self.assertRaisesRegex(ValueError, r'type 10, they must be in that of the host'):
+            proximity.update(ByDLPack(points, (10, 0)))
+        with self.assertRaisesRegex(ValueError, r'type 2, they must be in that of the host'):
+            proximity.update(ByDLPack(points, (2, 0)))
         bad = points.copy()
         bad[3, 1] = np.nan
         with self.assertRaisesRegex(ValueError, 'point [0-9]+: [xyz] is .*coordinates must be finite'):

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 
 #include "src/cuda/device_of.hpp"
@@ -105,6 +106,7 @@ class FailingExecutor : public HostExecutor<FailingMemory> {
     device_call();
     return Host::lock_pages(data, bytes);
   }
+  std::optional<int> gpu() const { return std::nullopt; }
   void require_own(const void* /*pointer*/) { device_call(); }
   void wait_for_others() { device_call(); }
   template <class... Arguments>

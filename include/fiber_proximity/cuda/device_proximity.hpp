@@ -133,6 +133,10 @@ class DeviceProximity {
   /// @throws as query(), std::logic_error without candidates
   void check_candidates(const Options& options, std::vector<std::uint8_t>& touching) const;
 
+  /// Which GPU the arrays are on, as CUDA counts them; nothing where they are in memory of the
+  /// host.
+  std::optional<int> gpu() const;
+
   /// [s] What the last update() and the last query() or check_candidates() took on the device.
   double device_seconds() const;
 
