@@ -50,6 +50,4 @@ fi
 "$root/scripts/setup.sh"
 build_package all tests
 use_devel_space
-# The C library fills memory that is freed (or new): what is read after it was freed is wrong in each run, not in some.
-export MALLOC_PERTURB_=165
 run_tests "${ctest_arguments[@]}"

@@ -333,3 +333,12 @@ roslaunch_add_file_check(../launch/bag.launch bag:=/tmp/any.bag frame:=world
 
 fiber_proximity_graph_tests(node_test fiber_player_test cable_sim_test input_node_test
   answer_text_node_test environment_node_test environment_services_test)
+
+# No sanitizer looks at nodes: the C library fills the memory that they free. What is read there then is wrong in each
+# run, and not in one of a hundred.
+get_property(tests DIRECTORY PROPERTY TESTS)
+foreach(test IN LISTS tests)
+  if(test MATCHES "_rostest_")
+    set_tests_properties(${test} PROPERTIES ENVIRONMENT MALLOC_PERTURB_=165)
+  endif()
+endforeach()
