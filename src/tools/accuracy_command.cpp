@@ -1,5 +1,6 @@
 // `fiber_query accuracy`: what each setting costs and errs on the user's own frames.
 #include <algorithm>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -165,6 +166,10 @@ AccuracyReport measure(const AccuracyRequest& request) {
 ExitCode run(const AccuracyRequest& request) {
   std::optional<OutputFile> picture;
   if (!request.picture.empty()) {
+    if (std::filesystem::path(request.picture).extension() != ".svg") {
+      throw std::invalid_argument("--picture is " + quote(request.picture) +
+                                  ", its name must end in .svg");
+    }
     picture.emplace(request.picture);  // before the long work, as it may not be writable
   }
   const AccuracyReport report = measure(request);

@@ -240,12 +240,12 @@ std::string YamlField::place() const {
 YamlField load_yaml(const std::string& file) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream || std::filesystem::is_directory(file)) {
-    throw std::invalid_argument("scene " + quote(file) + ": there is no such file to read");
+    throw std::invalid_argument("file " + quote(file) + ": there is no such file to read");
   }
   std::string text;
   for (std::array<char, 65'536> chunk{}; stream; text.append(chunk.data(), stream.gcount())) {
     if (text.size() > largest_file) {
-      throw std::invalid_argument("scene " + quote(file) + ": it may have at most " +
+      throw std::invalid_argument("file " + quote(file) + ": it may have at most " +
                                   std::to_string(largest_file) + " bytes");
     }
     stream.read(chunk.data(), chunk.size());

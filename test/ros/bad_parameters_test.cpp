@@ -195,7 +195,7 @@ TEST_F(BadInputTest, ABadParameterIsAClearErrorAndExitCode2) {
                                        ", it must be automatic or a number of at least 0");
   }
   expect_exit("_scene:=/none",
-              "parameter /refused/scene: scene '/none': there is no such file to read");
+              "parameter /refused/scene: file '/none': there is no such file to read");
   expect_exit("_tf_timeout:=-1", "parameter /refused/tf_timeout is -1, it must be a number of ");
   expect_exit("_radius:=thick",
               "parameter /refused/radius is thick, it must be a number from 0 to ");

@@ -121,6 +121,8 @@ TEST_F(Accuracy, RefusesWhatCannotBeMeasured) {
   EXPECT_TRUE(refused(query(accuracy + straight), "has no pair of segments in 1 frame"));
   EXPECT_TRUE(refused(query(accuracy + crossing() + " --picture /nowhere/picture.svg"),
                       "/nowhere/picture.svg: cannot be opened"));
+  EXPECT_TRUE(refused(query(accuracy + crossing() + " --picture picture.png"),
+                      "--picture is 'picture.png', its name must end in .svg"));
   EXPECT_TRUE(refused(query(accuracy + crossing() + " --engines XL"), "'XL'"));
   EXPECT_TRUE(refused(query(accuracy + crossing() + " --questions nearest"), "nearest"));
   EXPECT_TRUE(

@@ -129,7 +129,7 @@ TEST_F(EnvironmentSceneTest, ErrorsNameFileLineFieldAndWhatIsAllowed) {
             "2: allowed[0] has the unknown key 'link', known are: object, fiber, segments");
   EXPECT_EQ(error("a: [\n").substr(0, 2), "2:");
   EXPECT_EQ(error_of([] { load_yaml("/no/such/file.yaml"); }),
-            "scene '/no/such/file.yaml': there is no such file to read");
+            "file '/no/such/file.yaml': there is no such file to read");
 }
 
 /// So many times `item`, the first of them with a name for the others.
@@ -222,9 +222,9 @@ TEST_F(EnvironmentSceneTest, ResourcesThatDoNotResolveNameTheObstacle) {
 }
 
 TEST_F(EnvironmentSceneTest, WhatIsNoFileOfASceneIsRefused) {
-  EXPECT_EQ(error_of([] { load_yaml("/"); }), "scene '/': there is no such file to read");
+  EXPECT_EQ(error_of([] { load_yaml("/"); }), "file '/': there is no such file to read");
   EXPECT_EQ(error_of([] { load_yaml("/dev/zero"); }),
-            "scene '/dev/zero': it may have at most 100000000 bytes");
+            "file '/dev/zero': it may have at most 100000000 bytes");
 }
 
 }  // namespace
