@@ -229,6 +229,7 @@ void Stepper::add_obstacle(MovingObstacle obstacle) {
     throw std::invalid_argument("nothing would touch an obstacle: there are no contacts with any");
   }
   contacts_->possible_motions()->add(std::move(obstacle), time_);
+  solver_->expect_pressed_contacts();
   has_step_ = false;
 }
 

@@ -58,7 +58,10 @@ TEST_P(ParallelLay, ComesToRestInBalance) {
     weight += rods.masses[i] * standard_gravity;
   }
   EXPECT_NEAR(carried, weight, 0.02 * weight);
-  EXPECT_NEAR(stepper.rods().positions[rods.first(2) + segments / 2].z(), up, 0.1 * laid_radius);
+  // Where they touch, or as much further apart as their barriers reach.
+  const double height = stepper.rods().positions[rods.first(2) + segments / 2].z();
+  EXPECT_GE(height, up);
+  EXPECT_LE(height, 1.05 * up);
 }
 
 INSTANTIATE_TEST_SUITE_P(Shifts, ParallelLay, testing::Values(0.0, 0.25, 0.5));

@@ -90,7 +90,8 @@ Entry read_entry(const YamlField& entry) {
       names.push_back(each);
     }
     throw std::invalid_argument(keys.front().place() + ": there is no effect " + quote(name) +
-                                ", known are: " + join(names));
+                                ", known are: " + join(names) +
+                                (name == "rolling" ? "; fibres roll by twist and friction" : ""));
   }
   return {{name, keys.front().place(), known->second},
           entry.is_map() ? entry.find(name) : std::nullopt};

@@ -79,8 +79,33 @@ std::shared_ptr<Attachment> make_attachment(const SimDescription& description, c
   return attachment;
 }
 
+/// @throws std::invalid_argument for a fibre that would only turn about itself, without twist
+void require_turns(const SimDescription& description, const Rods& rods) {
+  for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
+    const SimFiber& fiber = description.fibers[rod];
+    const double rate = fiber.angular_velocity.norm();
+    const auto goes_along = [&](std::uint32_t node) {
+      const Eigen::Vector3d edge = rods.positions[node + 1] - rods.positions[node];
+      return fiber.angular_velocity.cross(edge).norm() <= 1e-6 * rate * edge.norm();
+    };
+    bool turns = rate == 0.0;
+    for (std::uint32_t node = rods.first(rod); node + 1 < rods.end(rod); ++node) {
+      turns = turns || !goes_along(node);
+    }
+    if (!turns) {
+      with_context(fiber.place, [] {
+        throw std::invalid_argument(
+            "angular_velocity is along the fibre: cross-sections turn with the effect twist only");
+      });
+    }
+  }
+}
+
 /// Turns the cross-sections of rods with twist as their fibres turn to begin with.
 void set_spins(const SimDescription& description, Rods& rods) {
+  if (rods.spins.empty()) {
+    require_turns(description, rods);
+  }
   for (std::uint32_t rod = 0; rod < rods.count() && !rods.spins.empty(); ++rod) {
     for (std::uint32_t i = rods.first(rod); i + 1 < rods.end(rod); ++i) {
       rods.spins[i] = description.fibers[rod].angular_velocity.dot(rods.start_tangents[i]);

@@ -139,6 +139,14 @@ std::vector<std::string> omissions(const SimScene& scene) {
                            " fibres pass through each other: the effect fiber_contact is not "
                            "named"));
   }
+  for (const SimParameter& parameter : scene.parameters.all()) {
+    if (parameter.name == "damping.relaxation_time" && parameter.value.front() > 0.0 &&
+        parameter.value.front() < scene.step_length()) {
+      found.push_back(format(parameter.name, " is ", parameter.value.front(), " s, less than a step of ",
+                             scene.step_length(),
+                             " s, which does not resolve it: more substeps would"));
+    }
+  }
   const bool is_only_moved =
       std::all_of(scene.effect_names.begin(), scene.effect_names.end(),
                   [](const std::string& effect) { return effect == "gravity"; });

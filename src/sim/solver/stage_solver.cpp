@@ -39,6 +39,7 @@ StageSolver::StageSolver(const Rods& rods, const StepperOptions& options, Contac
   scratch_.resize(rods);
   group_of_.resize(rods.count());
   is_returning_.resize(rods.count());
+  expect_pressed_contacts();
   for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
     travel_bound_.by_rod.push_back(StepBound::min_travel * rods.radii[rod]);
   }

@@ -67,6 +67,10 @@ class StageSolver {
   /// one: the last solve was its last.
   void end_step(const Rods& rods);
 
+  /// What contacts press in the next step that were there when it began is no velocity: nobody has
+  /// pressed them together, they were put there. So is what rods begin with.
+  void expect_pressed_contacts() { is_returning_.assign(is_returning_.size(), true); }
+
   /// Takes what another solver of the same rods has come to in its steps.
   void take_state(const StageSolver& other) {
     anchors_ = other.anchors_;
@@ -141,7 +145,7 @@ class StageSolver {
   RodState start_;
   RodState reference_;
   FrictionAnchors anchors_;         // of the step before
-  std::vector<bool> is_returning_;  // by rod: it had impacts in the step before
+  std::vector<bool> is_returning_;  // by rod: it had impacts in the step before, or is expected to
   FrictionOrigins origins_;         // of the solve
   double last_step_ = 0.0;          // [s]
   tbb::concurrent_queue<std::unique_ptr<NewtonSolver>> solvers_;  // that are not at work
