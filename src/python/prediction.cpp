@@ -19,6 +19,8 @@ struct Trajectory {
   std::pair<std::string, std::int64_t> fiber;
   std::int64_t node = -1;
   PlacementPath path;
+  bool has_tangents = false;
+  bool has_directors = false;
 };
 
 /// The value of a key, and that it has been read.
@@ -56,6 +58,8 @@ Trajectory to_trajectory(const py::handle& object) {
   trajectory.node = node.is_none() ? -1 : node.cast<std::int64_t>();
   const std::vector<double> times = to_numbers(take(dict, "times"), "times");
   const auto positions = take_vectors(dict, "positions", times.size(), {});
+  trajectory.has_tangents = dict.contains("tangents");
+  trajectory.has_directors = dict.contains("directors");
   const auto tangents = take_vectors(dict, "tangents", times.size(), Eigen::Vector3d::UnitX());
   const auto directors = take_vectors(dict, "directors", times.size(), Eigen::Vector3d::UnitY());
   for (std::size_t i = 0; i < times.size(); ++i) {
@@ -64,6 +68,19 @@ Trajectory to_trajectory(const py::handle& object) {
   if (!dict.empty()) {
     throw std::invalid_argument("there is no key " + std::string(py::repr(dict.begin()->first)) +
                                 ", known are fiber, node, times, positions, tangents, directors");
+  }
+  return trajectory;
+}
+
+/// What no directions were given for keeps those that its hold has.
+HoldTrajectory hold_trajectory(const SimScene& scene, const Trajectory& asked) {
+  const std::uint32_t rod = find_fiber(scene, asked.fiber.first, asked.fiber.second);
+  const std::uint32_t node = find_node(scene, rod, asked.node).node;
+  const Placement now = placement_now(scene, rod, node);
+  HoldTrajectory trajectory{rod, node, asked.path};
+  for (auto& [time, placement] : trajectory.path) {
+    placement.tangent = asked.has_tangents ? placement.tangent : now.tangent;
+    placement.director = asked.has_directors ? placement.director : now.director;
   }
   return trajectory;
 }
@@ -153,7 +170,7 @@ duration : float [s]
 trajectories : list of dict
     Each of a held node: ``fiber`` (name or index), ``node``, ``times`` (k,) [s] from now, rising,
     ``positions`` (k, 3) [m], and for clamps ``tangents`` and ``directors`` (k, 3) of unit length,
-    across each other. In between it moves on straight lines, before the first of them from where it
+    across each other; without, a clamp keeps those that it has. In between it moves on straight lines, before the first of them from where it
     is.
 sample_period : float [s]
     From one sample of the positions to the next; 0: only where they are in the end.
@@ -195,10 +212,8 @@ py::dict predict(const Simulation& simulation, double duration, const py::list& 
     const WithoutPythonLock others_may_run;
     std::vector<HoldTrajectory> holds;
     for (std::size_t i = 0; i < asked.size(); ++i) {
-      with_context("trajectory " + std::to_string(i), [&] {
-        const std::uint32_t rod = find_fiber(scene, asked[i].fiber.first, asked[i].fiber.second);
-        holds.push_back({rod, find_node(scene, rod, asked[i].node).node, asked[i].path});
-      });
+      with_context("trajectory " + std::to_string(i),
+                   [&] { holds.push_back(hold_trajectory(scene, asked[i])); });
     }
     follow(scene, holds);
     PredictionOptions options;

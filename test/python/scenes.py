@@ -128,6 +128,15 @@ class Simulations(unittest.TestCase):
         with self.assertRaisesRegex(TypeError, 'trajectory 0 is 3, it must be a dict'):
             simulation.predict(1.0, [3])
 
+    def test_a_clamp_keeps_its_direction_in_a_prediction(self):
+        scene = {'fibers': [CABLE], 'effects': ['gravity', 'stretch', 'bend', {'attachment': [
+            {'fiber': 'cable', 'kind': 'clamp', 'tangent': [0, 1, 0],
+             'path': [{'time': 0}, {'time': 0.5, 'position': [0, 0.2, 1.1]}]}]}]}
+        told = fp.Simulation(scene).predict(0.5)
+        again = fp.Simulation(scene).predict(0.5, [{'fiber': 'cable', 'node': 0, 'times': [0.5],
+                                                    'positions': [[0, 0.2, 1.1]]}])
+        np.testing.assert_allclose(again['positions'], told['positions'], atol=1e-9)
+
     def test_a_file_is_a_dict(self):
         config = pathlib.Path(__file__).resolve().parents[2] / 'config' / 'sim' / 'hanging_cable.yaml'
         from_file = fp.Simulation(config, threads=1)

@@ -10,6 +10,7 @@
 #include <functional>
 
 #include "fiber_proximity/ObstacleArray.h"
+#include "fiber_proximity/Predict.h"
 #include "fiber_proximity/ros/conversions.hpp"
 #include "test/ros/cable_sim_fixture.hpp"
 #include "test/ros/messages.hpp"
@@ -200,6 +201,39 @@ TEST_F(SimObstaclesTest, LinksAndFramesThatTurnPushCables) {
   }
   ASSERT_TRUE(go(0.0, 0.0));
   expect_pushed();
+}
+
+/// A prediction moves what follows a frame, as links of a robot do.
+TEST_F(SimObstaclesTest, WhatFramesWillPushIsTold) {
+  fiber_proximity::Predict::Request request;
+  request.duration = 0.6;
+  const auto middles = [&] {
+    const auto told = call<fiber_proximity::Predict>("predict", request);
+    EXPECT_TRUE(told.success) << told.message;
+    EXPECT_EQ(told.touches.size(), request.trajectories.size());
+    for (const auto& touch : told.touches) {
+      EXPECT_EQ(touch.fiber, 1U);
+      EXPECT_EQ(touch.type_b, fiber_proximity::Contact::OBJECT);
+      EXPECT_EQ(told.object_names.at(touch.body_b), "post");
+      EXPECT_GT(touch.first, 0.1);
+    }
+    const auto points = node_test::to_assembly(told.samples.at(0)).points();
+    return std::array{points.at(nodes / 2), points.at(nodes + nodes / 2)};
+  };
+  for (const Vector3d& middle : middles()) {
+    EXPECT_LT(std::abs(middle.y()), 1e-3);
+  }
+  fiber_proximity::HoldTrajectory& way = request.trajectories.emplace_back();
+  way.frame = "tool";
+  way.times = {0.0, 0.5};
+  for (const double y : {0.0, 0.2}) {
+    way.poses.push_back(
+        fiber_proximity_ros::to_message(Eigen::Isometry3d(Eigen::Translation3d(0.0, y, 1.0))));
+  }
+  const auto pushed = middles();
+  EXPECT_LT(std::abs(pushed[0].y()), 1e-3);
+  EXPECT_GT(pushed[1].y(), 0.1 + post_radius);
+  EXPECT_LT((post(1) - Vector3d(0.0, -0.1, 1.0)).norm(), 1e-9) << "the running scene stays";
 }
 
 TEST_F(SimObstaclesTest, PostsStayWhereTheirFramesAreLost) {

@@ -93,6 +93,7 @@ class Attachment : public Effect {
   void energy(const RodPack& rods, const NodeValues& values, SimdBatch& energy) const override;
   void add_derivatives(const RodPack& rods, const NodeValues& values,
                        PackSystem& system) const override;
+  bool holds(std::uint32_t rod) const override;
   void end_step(Rods& rods, const TimeStep& step) override;
   void take_state(const Effect& other) override;
   void add_forces(const RodPack& rods, const NodeValues& values, RodForces& forces) const override;

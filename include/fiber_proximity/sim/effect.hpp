@@ -265,6 +265,9 @@ class Effect {
   /// again
   virtual bool update_multipliers(const Rods& /*rods*/, std::uint32_t /*rod*/) { return true; }
 
+  /// Whether the effect keeps nodes of a rod where they are told to be.
+  virtual bool holds(std::uint32_t /*rod*/) const { return false; }
+
   /// Called once after each step, by one thread.
   virtual void end_step(Rods& /*rods*/, const TimeStep& /*step*/) {}
 

@@ -39,40 +39,66 @@ fiber::Placement placement_in(const Eigen::Isometry3d& pose, const fiber::Placem
   return {pose * held.position, pose.linear() * held.tangent, pose.linear() * held.director};
 }
 
-/// @param held the hold, in poses
-fiber::HoldTrajectory trajectory_of(const fiber_proximity::HoldTrajectory& message,
-                                    const fiber::NodeOfRod& node, const fiber::Placement& held) {
+fiber::ObstaclePath poses_of(const fiber_proximity::HoldTrajectory& message) {
   if (message.times.size() != message.poses.size()) {
     throw std::invalid_argument("there are " + std::to_string(message.times.size()) +
                                 " times for " + std::to_string(message.poses.size()) + " poses");
   }
-  fiber::HoldTrajectory trajectory{node.rod, node.node, {}};
+  fiber::ObstaclePath poses;
   for (std::size_t i = 0; i < message.times.size(); ++i) {
-    fiber::with_context("pose " + std::to_string(i), [&] {
-      trajectory.path.emplace_back(message.times[i], placement_in(to_pose(message.poses[i]), held));
-    });
+    fiber::with_context("pose " + std::to_string(i),
+                        [&] { poses.emplace_back(message.times[i], to_pose(message.poses[i])); });
+  }
+  return poses;
+}
+
+/// @param held the hold, in poses
+fiber::HoldTrajectory trajectory_of(const fiber::ObstaclePath& poses, const fiber::NodeOfRod& node,
+                                    const fiber::Placement& held) {
+  fiber::HoldTrajectory trajectory{node.rod, node.node, {}};
+  for (const auto& [time, pose] : poses) {
+    trajectory.path.emplace_back(time, placement_in(pose, held));
   }
   return trajectory;
 }
 
-/// Adds those of all holds that the message is about.
+struct Trajectories {
+  std::vector<fiber::HoldTrajectory> holds;
+  std::vector<fiber::ObstacleTrajectory> obstacles;
+};
+
+/// Adds those of all holds and obstacles that the message is about.
 void add_trajectories(const fiber::SimScene& scene, const fiber_proximity::HoldTrajectory& message,
-                      std::vector<fiber::HoldTrajectory>& trajectories) {
+                      Trajectories& trajectories) {
+  const fiber::ObstaclePath poses = poses_of(message);
   if (message.frame.empty()) {
     const fiber::NodeOfRod node =
         fiber::find_node(scene, fiber::find_rod(scene, message.fiber), message.node);
-    trajectories.push_back(
-        trajectory_of(message, node, {Vector3d::Zero(), Vector3d::UnitX(), Vector3d::UnitY()}));
+    trajectories.holds.push_back(
+        trajectory_of(poses, node, {Vector3d::Zero(), Vector3d::UnitX(), Vector3d::UnitY()}));
     return;
   }
-  const std::size_t before = trajectories.size();
+  bool is_any = false;
   for (const fiber::FollowedFrame& frame : scene.frames) {
     if (frame.frame == message.frame && scene.paths.count(frame.hold) > 0) {
-      trajectories.push_back(trajectory_of(message, {frame.rod, frame.node}, frame.in_frame));
+      trajectories.holds.push_back(trajectory_of(poses, {frame.rod, frame.node}, frame.in_frame));
+      is_any = true;
     }
   }
-  if (trajectories.size() == before) {
-    throw std::invalid_argument("nothing is held by frame " + fiber::quote(message.frame));
+  for (const fiber::FollowedObstacle& followed : scene.obstacle_frames) {
+    if (followed.frame == message.frame) {
+      fiber::ObstaclePath& path =
+          trajectories.obstacles.emplace_back(fiber::ObstacleTrajectory{followed.obstacle, poses})
+              .path;
+      for (auto& [time, pose] : path) {
+        pose = pose * followed.in_frame;
+      }
+      is_any = true;
+    }
+  }
+  if (!is_any) {
+    throw std::invalid_argument("nothing is held by frame " + fiber::quote(message.frame) +
+                                ", and no obstacle follows it");
   }
 }
 
@@ -139,13 +165,14 @@ bool PredictService::predict(fiber_proximity::Predict::Request& request, Respons
   give_way();
   try {
     SceneCopy copy = copy_();
-    std::vector<fiber::HoldTrajectory> trajectories;
+    Trajectories trajectories;
     for (std::size_t i = 0; i < request.trajectories.size(); ++i) {
       fiber::with_context("trajectory " + std::to_string(i), [&] {
         add_trajectories(copy.scene, request.trajectories[i], trajectories);
       });
     }
-    fiber::follow(copy.scene, trajectories);
+    fiber::follow(copy.scene, trajectories.holds);
+    fiber::follow(copy.scene, trajectories.obstacles);
     fiber::PredictionOptions options;
     options.duration = request.duration;
     options.sample_period = request.sample_period;

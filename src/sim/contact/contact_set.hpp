@@ -46,6 +46,21 @@ class ContactSet {
 
   void clear();
 
+  /// Calls function(rod) for all that may touch something; often, for some.
+  template <class Function>
+  void for_each_rod(const Function& function) const {
+    for (const EdgePair& pair : pairs) {
+      function(pair.rod_a);
+      function(pair.rod_b);
+    }
+    for (const ObstacleContact& contact : obstacle_contacts) {
+      function(contact.rod);
+    }
+    for (const ObstacleEdge& edge : obstacle_edges) {
+      function(edge.rod);
+    }
+  }
+
   /// Begins a solve in which obstacles may move: to be called before begin().
   /// @param islands by rod
   /// @param count   of islands

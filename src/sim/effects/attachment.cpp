@@ -178,6 +178,11 @@ void Attachment::begin_step(Rods& rods, const TimeStep& step) {
   }
 }
 
+bool Attachment::holds(std::uint32_t rod) const {
+  const auto held = first_of(rod);
+  return held != held_.end() && held->hold.rod == rod;
+}
+
 std::vector<Attachment::Held>::const_iterator Attachment::first_of(std::uint32_t rod) const {
   return std::lower_bound(held_.begin(), held_.end(), rod,
                           [](const Held& held, std::uint32_t r) { return held.hold.rod < r; });

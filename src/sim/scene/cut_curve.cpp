@@ -44,6 +44,16 @@ Along along_rest(double share, const RigidShares& rigid) {
 NodesAt nodes_at(const std::vector<double>& shares, std::int64_t segments,
                  const RigidShares& rigid) {
   const std::int64_t edges = segments - static_cast<std::int64_t>(rigid.size());
+  double rest = 1.0;
+  for (const auto& [from, to] : rigid) {
+    rest -= to - from;
+  }
+  constexpr double least_rest = 1e-6;  // below, its segments are hardly longer than rounding
+  if (edges > 0 && rest < least_rest) {
+    throw std::invalid_argument(format("its rigid sections leave ", std::max(0.0, rest),
+                                       " of its length to ", edges, " of its ", segments,
+                                       " segments: each of them is one segment"));
+  }
   const bool ends_rigid = !rigid.empty() && rigid.back().second == 1.0;
   NodesAt nodes;
   for (const double share : shares) {

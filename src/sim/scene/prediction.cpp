@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "src/sim/scene/parts.hpp"
 #include "src/sim/scene/prediction_observer.hpp"
 #include "src/sim/scene/reach.hpp"
+#include "src/text/quote.hpp"
 #include "src/text/with_context.hpp"
 
 namespace fiber {
@@ -23,15 +25,19 @@ constexpr double max_speed = 1000.0;  // [m/s]
 
 bool is_unit(const Vector3d& vector) { return std::abs(vector.norm() - 1.0) < 1e-6; }
 
-/// Where the hold of a node has it now, or where the node is if nothing holds it.
-Placement placement_now(const SimScene& scene, const HoldTrajectory& trajectory) {
-  const Rods& rods = scene.stepper->rods();
-  const auto id = scene.attachment->find(trajectory.rod, trajectory.node);
-  if (id) {
-    return scene.attachment->placement(*id, scene.stepper->time());
+/// @param before the time of the entry before, if there is one [s]
+void require_later(double time, std::optional<double> before) {
+  if (!(std::isfinite(time) && (before ? time > *before : time >= 0.0))) {
+    refuse(format("time is ", time, " s, times must be finite and rise from 0",
+                  before ? format(", the one before is ", *before, " s") : ""));
   }
-  return {position_of(rods, {trajectory.rod, trajectory.node}), Vector3d::UnitX(),
-          Vector3d::UnitY()};
+}
+
+void require_speed(double way, double duration) {
+  if (way > max_speed * duration) {
+    refuse(
+        format("it goes ", way, " m in ", duration, " s, at most ", max_speed, " m/s are allowed"));
+  }
 }
 
 /// The whole path in the time of the scene, from where the hold is now.
@@ -42,18 +48,14 @@ PlacementPath path_from_now(const SimScene& scene, const HoldTrajectory& traject
   }
   const Rods& rods = scene.stepper->rods();
   const double now = scene.stepper->time();
-  PlacementPath whole{{now, placement_now(scene, trajectory)}};
+  PlacementPath whole{{now, placement_now(scene, trajectory.rod, trajectory.node)}};
   // What is at time 0 may be off by as much as a hold may be moved within a step.
   const double max_gap = std::max(
       pull_speed(rods.sections[trajectory.rod], scene.max_strain) * scene.step_length(), 1e-6);
   for (std::size_t i = 0; i < path.size(); ++i) {
     with_context("entry " + std::to_string(i), [&] {
       const auto& [time, placement] = path[i];
-      const double before = i == 0 ? 0.0 : path[i - 1].first;
-      if (!(std::isfinite(time) && (i == 0 ? time >= 0.0 : time > before))) {
-        refuse(format("time is ", time, " s, times must be finite and rise from 0",
-                      i == 0 ? "" : format(", the one before is ", before, " s")));
-      }
+      require_later(time, i == 0 ? std::nullopt : std::optional(path[i - 1].first));
       if (!placement.position.allFinite() || !is_unit(placement.tangent) ||
           !is_unit(placement.director) ||
           std::abs(placement.tangent.dot(placement.director)) > 1e-6) {
@@ -67,9 +69,8 @@ PlacementPath path_from_now(const SimScene& scene, const HoldTrajectory& traject
                         " m are allowed"));
         }
         whole.clear();
-      } else if (way > max_speed * duration) {
-        refuse(format("it goes ", way, " m in ", duration, " s, at most ", max_speed,
-                      " m/s are allowed"));
+      } else {
+        require_speed(way, duration);
       }
       whole.emplace_back(now + time, placement);
     });
@@ -77,7 +78,49 @@ PlacementPath path_from_now(const SimScene& scene, const HoldTrajectory& traject
   return whole;
 }
 
+/// The whole path in the time of the scene, from where the obstacle is now.
+ObstaclePath path_from_now(const SimScene& scene, const ObstacleTrajectory& trajectory) {
+  constexpr double max_gap = 1e-3;  // [m] by which frames and what follows them differ
+  const ObstaclePath& path = trajectory.path;
+  if (path.empty()) {
+    refuse("it has no entries");
+  }
+  const double now = scene.stepper->time();
+  ObstaclePath whole{{now, scene.motions()->poses()[trajectory.obstacle]}};
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    with_context("entry " + std::to_string(i), [&] {
+      const auto& [time, pose] = path[i];
+      require_later(time, i == 0 ? std::nullopt : std::optional(path[i - 1].first));
+      if (!pose.matrix().allFinite()) {
+        refuse("its pose must be finite");
+      }
+      const double way = (pose.translation() - whole.back().second.translation()).norm();
+      if (i == 0 && time == 0.0) {
+        if (way > max_gap) {
+          refuse(format("it begins ", way, " m from where the obstacle is, at time 0; ", max_gap,
+                        " m are allowed"));
+        }
+        return;
+      }
+      require_speed(way, now + time - whole.back().first);
+      whole.emplace_back(now + time, pose);
+    });
+  }
+  return whole;
+}
+
 }  // namespace
+
+Placement placement_now(const SimScene& scene, std::uint32_t rod, std::uint32_t node) {
+  if (rod >= scene.stepper->rods().count()) {
+    refuse(format("there is no fibre ", rod));
+  }
+  const NodeOfRod place = find_node(scene, rod, node);
+  if (const auto id = scene.attachment->find(place.rod, place.node)) {
+    return scene.attachment->placement(*id, scene.stepper->time());
+  }
+  return {position_of(scene.stepper->rods(), place), Vector3d::UnitX(), Vector3d::UnitY()};
+}
 
 void follow(SimScene& scene, const std::vector<HoldTrajectory>& trajectories) {
   if (trajectories.empty()) {
@@ -88,10 +131,7 @@ void follow(SimScene& scene, const std::vector<HoldTrajectory>& trajectories) {
   for (std::size_t i = 0; i < trajectories.size(); ++i) {
     const HoldTrajectory& trajectory = trajectories[i];
     with_context("trajectory " + std::to_string(i), [&] {
-      if (trajectory.rod >= scene.stepper->rods().count()) {
-        refuse(format("there is no fibre ", trajectory.rod));
-      }
-      find_node(scene, trajectory.rod, trajectory.node);
+      placement_now(scene, trajectory.rod, trajectory.node);  // throws
       if (!nodes.emplace(trajectory.rod, trajectory.node).second) {
         refuse(format("node ", trajectory.node, " of fibre ",
                       quote(scene.fiber_names[trajectory.rod]), " has another one already"));
@@ -111,6 +151,28 @@ void follow(SimScene& scene, const std::vector<HoldTrajectory>& trajectories) {
   }
 }
 
+void follow(SimScene& scene, const std::vector<ObstacleTrajectory>& trajectories) {
+  std::set<std::uint32_t> obstacles;
+  std::vector<std::shared_ptr<const ObstaclePath>> paths;
+  for (std::size_t i = 0; i < trajectories.size(); ++i) {
+    const std::uint32_t obstacle = trajectories[i].obstacle;
+    with_context("trajectory " + std::to_string(i), [&] {
+      if (scene.motions() == nullptr || obstacle >= scene.motions()->obstacles().size()) {
+        refuse(format("there is no obstacle ", obstacle, " that moves"));
+      }
+      if (!obstacles.insert(obstacle).second) {
+        refuse(format("obstacle ", quote(scene.motions()->obstacles()[obstacle].object.name),
+                      " has another one already"));
+      }
+      paths.push_back(std::make_shared<const ObstaclePath>(path_from_now(scene, trajectories[i])));
+    });
+  }
+  for (std::size_t i = 0; i < trajectories.size(); ++i) {
+    scene.stepper->moving_obstacles()->redirect(
+        trajectories[i].obstacle, [path = paths[i]](double time) { return pose_at(*path, time); });
+  }
+}
+
 Prediction predict(SimScene& scene, const PredictionOptions& options,
                    const std::function<bool()>& is_cancelled) {
   PredictionObserver observer(scene, options);
@@ -121,8 +183,9 @@ Prediction predict(SimScene& scene, const PredictionOptions& options,
   for (std::int64_t frame = 0; frame <= frames; ++frame) {
     if (observer.time() >= next_sample * (1.0 - 1e-9) || frame == frames) {
       observer.sample();
-      while (options.sample_period > 0.0 && next_sample <= observer.time() * (1.0 + 1e-9)) {
-        next_sample += options.sample_period;
+      if (options.sample_period > 0.0) {
+        const double taken = std::floor(observer.time() * (1.0 + 1e-9) / options.sample_period);
+        next_sample = (taken + 1.0) * options.sample_period;
       }
     }
     if (frame == frames) {

@@ -80,6 +80,7 @@ std::optional<double> NewtonSolver::solve(Rods& rods, const Problem& problem) {
     }
     problem.contacts->begin(rods, problem.friction, problem.origins, problem.step);
   }
+  find_free_islands(problem);
   evaluate_energies(rods, problem);
   find_stored_energies(problem, max_kinetic_);
   const double stored_before = std::accumulate(max_kinetic_.begin(), max_kinetic_.end(), 0.0);

@@ -92,6 +92,7 @@ class NewtonSolver {
     double predicted_decrease = 0.0;   ///< minus the directional derivative of a whole step [J]
     double scale = 1.0;                ///< factor for the next step, if the last one was too short
     std::uint32_t corrections = 0;     ///< iterations of correct_short_steps()
+    bool is_free = true;               ///< nothing holds or may touch its rods
     bool is_active = true;             ///< iterates
     bool has_friction_of_now = false;  ///< by the normal forces where its rods are
     double friction_share = 1.0;       ///< of the way to these forces that updates go
@@ -132,6 +133,7 @@ class NewtonSolver {
   double obstacle_work(const Rods& rods, const Problem& problem);
   void assemble(Rods& rods, const Problem& problem);
   void add_joints_to_step(const Problem& problem);
+  void find_free_islands(const Problem& problem);
   void check_convergence(Rods& rods, const Problem& problem, std::uint32_t iteration);
   bool update_multipliers(Rods& rods, const Problem& problem);
   void update_friction(const Rods& rods, const Problem& problem);

@@ -19,7 +19,26 @@ constexpr double rest_tolerance = 1e-3;
 /// of a rod that slides would err to the same side.
 constexpr double friction_tolerance = 0.3;
 
+/// Nothing takes from rods that fly freely what steps leave over: it adds up, as momentum that they
+/// turn with.
+constexpr double free_tolerance = 0.01;
+
 }  // namespace
+
+void NewtonSolver::find_free_islands(const Problem& problem) {
+  const auto touches = [this](std::uint32_t rod) {
+    states_[scratch_->islands[rod]].is_free = false;
+  };
+  if (problem.contacts != nullptr) {
+    problem.contacts->for_each_rod(touches);
+  }
+  for (const std::uint32_t rod : members_) {
+    if (std::any_of(problem.effects.begin(), problem.effects.end(),
+                    [rod](const auto& effect) { return effect->holds(rod); })) {
+      touches(rod);
+    }
+  }
+}
 
 /// Deactivates islands whose residual is within the tolerance, with friction by the forces of now.
 /// Effects with multipliers update them first, which may raise the residual again.
@@ -33,8 +52,10 @@ void NewtonSolver::check_convergence(Rods& rods, const Problem& problem, std::ui
     // A residual by a part of the way to the friction of now has that part of its change, less what
     // is left of Newton's iteration, which may be half of it.
     const double share = states_[i].friction_share;
-    return states_[i].is_active &&
-           reports_[i].residual <= (share < 1.0 ? 0.5 * share : 1.0) * allowed;
+    const double part = share < 1.0                           ? 0.5 * share
+                        : iteration > 0 && states_[i].is_free ? free_tolerance
+                                                              : 1.0;
+    return states_[i].is_active && reports_[i].residual <= part * allowed;
   };
   bool has_friction_of_before = false;
   for (std::size_t i = 0; i < states_.size(); ++i) {

@@ -67,6 +67,10 @@ TEST_F(SimSceneTest, ErrorsNameLineAndWhatIsAllowed) {
       {scene_text(line, held + "{fiber: cable, path: [{time: 0}, {time: 2}, {time: 1}]}]}]"),
        "time is 1, it must be later than the time before, 2.000000 s (fibre 'cable')"},
       {scene_text(line, held + "{fiber: cable, path: []}]}]"), "a list of at least one entry"},
+      {scene_text(line, held + "{fiber: cable, path: [{time: 0}, {time: 1.0e-3, position: [0, 0, "
+                               "2]}]}]}]"),
+       "7: effects[1].attachment[0] moves with 2000.000000 m/s, it must be at most 1000.000000 "
+       "m/s"},
       {scene_text(line, held + "{fiber: cable, path: [{time: 0, position: [0, 0, 0.3]}]}]}]"),
        "7: effects[1].attachment[0] begins 0.300000 m from where node 0 is, it must begin within "
        "0.250000 m, an edge's length (fibre 'cable')"},

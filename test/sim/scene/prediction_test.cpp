@@ -241,6 +241,55 @@ TEST_F(PredictionTest, WhatMayNotBeAskedIsRefusedAndChangesNothing) {
   EXPECT_EQ(scene.stepper->time(), 0.0);
 }
 
+TEST_F(PredictionTest, ObstaclesGoTheirWayAsWell) {
+  std::string text = hanging();
+  text.insert(text.rfind(']'),
+              ", {id: pusher, motion: {path: [{time: 0}]}, pose: {position: [0.4, 0, -0.8]}, "
+              "primitives: [{type: sphere, dimensions: [0.1]}]}");
+  const SimDescription description = describe(text);
+  SimScene scene = make_sim_scene(description, 1);
+  advance(scene, 5);
+  const auto way = [](double x, double time) {
+    return ObstacleTrajectory{0, {{time, Eigen::Isometry3d(Eigen::Translation3d(x, 0.0, -0.8))}}};
+  };
+  PredictionOptions options;
+  const auto touches = [&](const std::vector<ObstacleTrajectory>& ways) {
+    SimScene copy = copy_sim_scene(description, scene, 1);
+    follow(copy, ways);
+    const Prediction told = predict(copy, options);
+    EXPECT_EQ(told.problem, "");
+    return told.touches.size();
+  };
+  EXPECT_EQ(touches({}), 0U);
+  EXPECT_EQ(touches({way(0.0, 0.5)}), 1U);
+  EXPECT_EQ(scene.motions()->poses()[0].translation().x(), 0.4);
+  const auto error = [&](const std::vector<ObstacleTrajectory>& ways) {
+    SimScene copy = copy_sim_scene(description, scene, 1);
+    return error_of([&] { follow(copy, ways); });
+  };
+  EXPECT_EQ(error({{3, {}}}), "trajectory 0: there is no obstacle 3 that moves");
+  EXPECT_EQ(error({{0, {}}}), "trajectory 0: it has no entries");
+  EXPECT_EQ(error({way(0.0, 0.5), way(0.0, 0.5)}),
+            "trajectory 1: obstacle 'pusher' has another one already");
+  EXPECT_EQ(error({way(5000.4, 1.0)}),
+            "trajectory 0: entry 0: it goes 5e+03 m in 1 s, at most 1e+03 m/s are allowed");
+  EXPECT_EQ(error({way(0.0, 0.0)}),
+            "trajectory 0: entry 0: it begins 0.4 m from where the obstacle is, at time 0; 0.001 m "
+            "are allowed");
+}
+
+/// However small the period is.
+TEST_F(PredictionTest, SamplesAreOfWholeFrames) {
+  const SimDescription description = describe(hanging());
+  for (const double period : {1e-300, 1e-15, 1e-3, 1.0 / 60.0}) {
+    SimScene scene = make_sim_scene(description, 1);
+    PredictionOptions options;
+    options.duration = 0.1;
+    options.sample_period = period;
+    EXPECT_EQ(predict(scene, options).samples.size(), 7U) << period;
+  }
+}
+
 TEST_F(PredictionTest, WhatIsCancelledTellsHowFarItCame) {
   const SimDescription description = describe(hanging());
   SimScene scene = make_sim_scene(description, 1);

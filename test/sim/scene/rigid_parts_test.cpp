@@ -199,6 +199,12 @@ TEST_F(SimSceneTest, RigidPartsThatCannotBeAreErrors) {
       {"{from: 0.2, to: 0.21, radius: 0.02}",
        "2: fibers[0]: its 5 segment(s) are too few for a joint or the end of a section at 0.21 "
        "beside one at 0.2 of its length (fibre 'cable')"},
+      {"{rigid: true}",
+       "2: fibers[0]: its rigid sections leave 0 of its length to 4 of its 5 segments: each of "
+       "them is one segment (fibre 'cable')"},
+      {"{to: 0.999999999, rigid: true}",
+       "2: fibers[0]: its rigid sections leave 1e-09 of its length to 4 of its 5 segments: each of "
+       "them is one segment (fibre 'cable')"},
   };
   for (const auto& [sections, expected] : refused) {
     EXPECT_EQ(error(with_parts(sections)), expected) << sections;

@@ -18,6 +18,13 @@ struct HoldTrajectory {
   PlacementPath path;      ///< times from now [s]; from where the node is held on straight lines
 };
 
+/// How an obstacle that follows a frame of tf is to move from now on; it stays where the last entry
+/// of the path has it.
+struct ObstacleTrajectory {
+  std::uint32_t obstacle = 0;  ///< index among those that move
+  ObstaclePath path;           ///< times from now [s]; from where the obstacle is
+};
+
 /// What is asked about the time to come.
 struct PredictionOptions {
   static constexpr double max_duration = 3600.0;
@@ -72,6 +79,13 @@ struct Prediction {
   std::string problem;
 };
 
+/// Where the hold of a node of a rod has it now, counted from the rod's first one; or where the
+/// node is if nothing holds it, with directions along x and y.
+/// @throws std::invalid_argument for a scene without the effect attachment, for a node that there
+/// is
+///         not
+Placement placement_now(const SimScene& scene, std::uint32_t rod, std::uint32_t node);
+
 /// Has holds of a scene follow trajectories from now on.
 /// @throws std::invalid_argument naming trajectory, entry and value, and what is allowed: for a
 ///         scene without the effect attachment, a rod or node that there is not, a node that is in
@@ -79,6 +93,10 @@ struct Prediction {
 ///         is not finite, a way that begins elsewhere than the hold is, or goes faster than 1000
 ///         m/s; the scene is unchanged then
 void follow(SimScene& scene, const std::vector<HoldTrajectory>& trajectories);
+
+/// Has obstacles of a scene follow trajectories from now on.
+/// @throws std::invalid_argument likewise
+void follow(SimScene& scene, const std::vector<ObstacleTrajectory>& trajectories);
 
 /// Moves a scene on, as a copy_sim_scene() of a running one, and tells what happens. Distances and
 /// forces are those at the ends of frames.
