@@ -13,6 +13,9 @@ std::vector<MeasurementPart<SimulationMeasurement>> simulation_parts() {
            measure_convergence,
            {"method", "motion", "segments", "substeps", "residual", "max_iterations", "iterations",
             "error", "ms_per_step", "ms_per_second"}},
+          {"contacts",
+           measure_contacts,
+           {"scene", "varied", "value", "quantity", "theory", "simulated", "error", "ms"}},
           {"xpbd",
            measure_xpbd,
            {"method", "motion", "segments", "inertia", "substeps", "error", "ms_per_step",
@@ -40,8 +43,9 @@ void add_counts(CLI::App& app, const std::string& name, std::vector<int>& values
 void add_simulate_command(CLI::App& app, Command& command) {
   const auto [simulate, what] = add_parts_command<SimulationMeasurement>(
       app, command, "simulate",
-      "the simulation: what theory says, error and time by segments and steps, beside a "
-      "textbook's XPBD rod and beside Bullet and MuJoCo, what each effect costs, on one thread, in "
+      "the simulation: what theory says, error and time by segments and steps, in contact, too, "
+      "beside a textbook's XPBD rod and beside Bullet and MuJoCo, what each effect costs, on one "
+      "thread, in "
       "processor time; and how many times faster than the clock large scenes are",
       simulation_parts());
   add_counts(*simulate, "--segments", what.segments, "of the hose");
@@ -49,6 +53,10 @@ void add_simulate_command(CLI::App& app, Command& command) {
   add_values(*simulate, "--residuals", what.residuals,
              "that a step may leave [m/s], with commas between them", finite_number(1e-12));
   add_counts(*simulate, "--max-iterations", what.max_iterations, "the most of a step");
+  add_counts(*simulate, "--contact-edges", what.contact_edges, "of a turn of rope around a post",
+             8);
+  add_counts(*simulate, "--contact-substeps", what.contact_substeps,
+             "of a frame, of a rod that falls on a table");
   add_counts(*simulate, "--xpbd-segments", what.xpbd_segments, "of the XPBD hose");
   add_counts(*simulate, "--xpbd-substeps", what.xpbd_substeps, "of its frames");
   add_counts(*simulate, "--xpbd-inertias", what.xpbd_inertias,

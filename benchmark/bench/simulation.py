@@ -4,16 +4,17 @@ simulators, too, and what each effect costs."""
 from .machine import describe_machine
 from .peer_cables_report import draw_peers, peers_table
 from .runs import Limits, Run, experiment, rows_of_all
-from .simulation_report import (EFFECT_COLUMNS, REAL_TIME_COLUMNS, VALIDATION_COLUMNS, draw_convergence,
-                                draw_effects, draw_xpbd, resolution_table, validation_summary, with_base, xpbd_table)
+from .simulation_report import (CONTACT_COLUMNS, EFFECT_COLUMNS, REAL_TIME_COLUMNS, VALIDATION_COLUMNS,
+                                draw_convergence, draw_effects, draw_xpbd, resolution_table, validation_summary, with_base, xpbd_table)
 from .tables import table, write_csv
 
-PARTS = ("validation", "convergence", "xpbd", "peers", "effects", "real_time")
+PARTS = ("validation", "convergence", "contacts", "xpbd", "peers", "effects", "real_time")
 FULL = {part: "" for part in PARTS}
 QUICK = {
     "validation": "",
     "convergence": "--segments 10,20,50 --substeps 1,4,16 --residuals 1e-2,1e-4 --max-iterations 1,2,4 "
                    "--reference-segments 100 --reference-substeps 32 --least-ms 5",
+    "contacts": "--contact-edges 24,48 --contact-substeps 4,16",
     "xpbd": "--xpbd-segments 20,50 --xpbd-substeps 10,50,200 --xpbd-inertias 1,10 "
             "--reference-segments 100 --reference-substeps 32 --least-ms 5",
     "peers": "--peer-segments 10,20 --peer-cable-segments 10 --peer-cables 4 --peer-repeats 1 "
@@ -42,6 +43,7 @@ def run(tool, out, quick):
     summary = f"{validation_summary(rows['validation'])}\n{command}"
     tables = {"validation": table(VALIDATION_COLUMNS, rows["validation"]),
               "resolution": resolution_table(rows["convergence"]),
+              "contacts": table(CONTACT_COLUMNS, rows["contacts"]),
               "xpbd": xpbd_table(hoses),
               "peers": peers_table(rows["peers"]),
               "effects": table(EFFECT_COLUMNS, with_base(rows["effects"])),

@@ -1,7 +1,7 @@
 """The figures and the tables of the simulation."""
 
 from .plot import grid, legend_below, panels, save
-from .tables import markdown, shown, significant, table
+from .tables import markdown, rounded, shown, significant, table
 
 DEFAULT_SEGMENTS = 50
 NAMES = {"implicit_euler": "implicit Euler", "bdf2": "BDF2", "xpbd": "XPBD"}
@@ -35,6 +35,10 @@ SUMMARY_COLUMNS = [("test", "test"), ("numbers", "numbers"), ("largest error", l
 VALIDATION_COLUMNS = [("test", "test"), ("scene", "scene"), ("quantity", "quantity"), ("segments", "segments"),
                       ("theory", shown("theory", "{:.5g}")), ("simulated", shown("simulated", "{:.5g}")),
                       ("error", lambda row: percent(row["error"]))]
+
+
+CONTACT_COLUMNS = [("scene", "scene"), ("by", lambda row: f"{row['value']} {row['varied']}"), ("quantity", "quantity"),
+                   ("error", lambda row: percent(row["error"])), ("takes [ms]", rounded("ms"))]
 
 
 def select(rows, **fields):

@@ -1,11 +1,14 @@
 #include "benchmark/sim/measurements.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "benchmark/processor_time.hpp"
 #include "benchmark/sim/hose.hpp"
 #include "benchmark/sim/validation.hpp"
 #include "benchmark/sim/xpbd_rod.hpp"
+#include "validation/sim/friction_scenes.hpp"
+#include "validation/sim/impacts.hpp"
 
 namespace fiber {
 
@@ -132,6 +135,41 @@ void measure_convergence(const SimulationMeasurement& what, const ReportRow& rep
   for (const HoseTask* const task : {&settling, &swinging}) {
     measure_line(*task, "residual", &HoseSetting::residual, what.residuals);
     measure_line(*task, "max_iterations", &HoseSetting::max_iterations, what.max_iterations);
+  }
+}
+
+void measure_contacts(const SimulationMeasurement& what, const ReportRow& report) {
+  const auto row = [&](const char* scene, const char* quantity, const char* varied, int value,
+                       double theory, const auto& simulate) {
+    double simulated = 0.0;
+    const double ms = processor_time_of([&] { simulated = simulate(); });
+    report({{"scene", scene},
+            {"quantity", quantity},
+            {"varied", varied},
+            {"value", value},
+            {"theory", theory},
+            {"simulated", simulated},
+            {"error", simulated / theory - 1.0},
+            {"ms", ms}});
+  };
+  constexpr double friction = 0.3;
+  for (const int edges : what.contact_edges) {
+    row("rope around a post, 360°", "ratio of the tensions", "edges of a turn", edges,
+        std::exp(friction * 2.0 * M_PI), [&] {
+          return tension_ratio({1.0, edges}, friction);
+        });
+  }
+  for (const Integrator integrator : {Integrator::IMPLICIT_EULER, Integrator::BDF2}) {
+    for (const int substeps : what.contact_substeps) {
+      Drop drop;
+      drop.integrator = integrator;
+      drop.restitution = 0.7;
+      drop.step = Hose::frame / substeps;
+      row(integrator == Integrator::BDF2 ? "rod on a table, BDF2"
+                                         : "rod on a table, implicit Euler",
+          "speed of rebound / of fall", "substeps", substeps, drop.restitution,
+          [&] { return std::sqrt(std::max(0.0, simulated_rebound(drop)) / drop.height); });
+    }
   }
 }
 

@@ -21,11 +21,13 @@ struct SimulationMeasurement {
   std::uint32_t frames = 120;    ///< of the swinging hose; the settling one has twice as many
   int reference_segments = 400;  ///< of what the hose is compared with, and half as many
   int reference_substeps = 128;  ///< likewise
-  double min_ms = 50.0;          ///< what is faster is measured again and again
-  std::vector<int> peer_segments{10, 20, 50};  ///< of a cable beside Bullet and MuJoCo
-  std::vector<int> peer_cable_segments{20};    ///< where cables touch
-  std::uint32_t peer_cables = 10;              ///< that touch
-  std::uint32_t peer_repeats = 3;              ///< of each time
+  std::vector<int> contact_edges{24, 48, 96, 192};  ///< of a turn of rope around a post
+  std::vector<int> contact_substeps{1, 4, 16, 64};  ///< of a frame, of a rod that falls
+  double min_ms = 50.0;                             ///< what is faster is measured again and again
+  std::vector<int> peer_segments{10, 20, 50};       ///< of a cable beside Bullet and MuJoCo
+  std::vector<int> peer_cable_segments{20};         ///< where cables touch
+  std::uint32_t peer_cables = 10;                   ///< that touch
+  std::uint32_t peer_repeats = 3;                   ///< of each time
   EffectScene effects;
   LoadSizes loads;
 };
@@ -35,6 +37,9 @@ void measure_validation(const SimulationMeasurement& what, const ReportRow& repo
 
 /// Error and time of the hose by segments, substeps, residual and the most iterations.
 void measure_convergence(const SimulationMeasurement& what, const ReportRow& report);
+
+/// Error and time of what touches: a rope around a post by its edges, a rod that falls by the step.
+void measure_contacts(const SimulationMeasurement& what, const ReportRow& report);
 
 /// Error and time of the hose as a textbook's XPBD rod, by segments, substeps and inertia.
 void measure_xpbd(const SimulationMeasurement& what, const ReportRow& report);

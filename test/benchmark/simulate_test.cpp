@@ -61,6 +61,22 @@ TEST_F(FiberBench, SaysWhatTheSimulationCostsAndHowItErrs) {
   EXPECT_EQ(parts["effects"].size(), 19U);
 }
 
+TEST_F(FiberBench, SaysWhatAccuracyCostsInContact) {
+  const ProcessResult result =
+      bench("simulate --parts contacts --contact-edges 16,48 --contact-substeps 4,64 --json");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const std::vector<nlohmann::json> rows = json_lines(result.out);
+  ASSERT_EQ(rows.size(), 2U + 2U * 2U);
+  for (std::size_t i = 0; i < rows.size(); i += 2) {
+    const auto error = [&](std::size_t row) {
+      return std::abs(rows[row].at("error").get<double>());
+    };
+    EXPECT_LT(error(i + 1), error(i)) << rows[i + 1].dump();
+    EXPECT_LT(error(i + 1), 0.05);
+    EXPECT_GT(rows[i + 1].at("ms"), rows[i].at("ms").get<double>());
+  }
+}
+
 TEST_F(FiberBench, SaysHowFastLargeScenesAreBesideTheClock) {
   const ProcessResult result = bench(
       "simulate --parts real_time --load-cables 2 --load-rods 5 --load-branches 2 --load-frames 4 "

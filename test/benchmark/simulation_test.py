@@ -50,6 +50,10 @@ if part == "convergence":
             hose("implicit_euler", motion, "residual", residual=residual)
         for most in (1, 2):
             hose("implicit_euler", motion, "max_iterations", max_iterations=most)
+if part == "contacts":
+    for edges, error in ((24, -0.016), (48, -0.004)):
+        row(scene="a rope", quantity="a ratio", varied="edges of a turn", value=edges, theory=6.6, simulated=6.5,
+            error=error, ms=20.0)
 if part == "xpbd":
     for motion in ("settling", "swinging"):
         for segments in (20, 50):
@@ -92,7 +96,7 @@ class SimulationTest(BenchTestCase):
         self.run_quick()
         calls = self.calls()
         self.assertEqual([call.split()[2] for call in calls],
-                         ["validation", "convergence", "xpbd", "peers", "effects", "real_time"])
+                         ["validation", "convergence", "contacts", "xpbd", "peers", "effects", "real_time"])
         for call in calls:
             self.assertTrue(call.startswith("simulate --parts ") and call.endswith(" --json"), call)
         self.assertIn("--segments 10,20,50", calls[1])
@@ -161,6 +165,9 @@ class SimulationTest(BenchTestCase):
     def test_the_table_of_real_time_names_threads(self):
         self.assertIn("| cables in contact | 10 | 100 | 4 | 2 | 1.18 | 1.176 | 3.40 |",
                       self.out_of_quick("real_time.md"))
+
+    def test_accuracy_in_contact_has_its_price(self):
+        self.assertIn("| a rope | 24 edges of a turn | a ratio | -1.60 % | 20 |", self.out_of_quick("contacts.md"))
 
     def test_xpbd_stands_beside_ours(self):
         table = self.out_of_quick("xpbd.md")
