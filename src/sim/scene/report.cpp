@@ -142,8 +142,8 @@ std::vector<std::string> omissions(const SimScene& scene) {
   for (const SimParameter& parameter : scene.parameters.all()) {
     if (parameter.name == "damping.relaxation_time" && parameter.value.front() > 0.0 &&
         parameter.value.front() < scene.step_length()) {
-      found.push_back(format(parameter.name, " is ", parameter.value.front(), " s, less than a step of ",
-                             scene.step_length(),
+      found.push_back(format(parameter.name, " is ", parameter.value.front(),
+                             " s, less than a step of ", scene.step_length(),
                              " s, which does not resolve it: more substeps would"));
     }
   }
