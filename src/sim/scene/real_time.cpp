@@ -25,7 +25,8 @@ struct Measurement {
   Resolution resolution;
   double work = 0.0;
   double share = 0.0;
-  std::vector<double> frame_times;  // [s]
+  std::vector<double> frame_times{};  // [s]
+  bool is_extrapolated = false;       // from some of the frames
 };
 
 double sum(const std::vector<double>& times, std::size_t count) {
@@ -58,6 +59,7 @@ Measurement measure(const RealTimeScene& scene, const Resolution& resolution, do
                        scene.frame_times(resolution, budget)};
   const std::size_t frames = measured.frame_times.size();
   const double taken = sum(measured.frame_times, frames);
+  measured.is_extrapolated = taken >= budget || (earlier && earlier->frame_times.size() > frames);
   if (earlier && earlier->frame_times.size() > frames) {
     measured.share = earlier->share * taken / sum(earlier->frame_times, frames);
     // The next measurement compares with this one: what it has not seen is in proportion.
@@ -152,12 +154,12 @@ RealTimeChoice choose_for_real_time(const RealTimeScene& scene) {
     }
     const double ratio = next->work / best.work;
     if (is_last) {
-      return {next->resolution, best.share * std::pow(ratio, power)};
+      return {next->resolution, best.share * std::pow(ratio, power), true};
     }
     power = std::clamp(std::log(next->share / best.share) / std::log(ratio), 0.5, 2.0);
     best = *next;
   }
-  return {best.resolution, best.share};
+  return {best.resolution, best.share, best.is_extrapolated};
 }
 
 std::vector<double> measure_frames(const SimDescription& description, double budget) {

@@ -35,7 +35,8 @@ struct RealTimeScene {
 
 struct RealTimeChoice {
   Resolution resolution;
-  double share = 0.0;  ///< of the time there is on one core
+  double share = 0.0;            ///< of the time there is on one core
+  bool is_extrapolated = false;  ///< from a part of its frames, or from another resolution
 };
 
 /// Chooses the finest resolution that takes about aimed_share of the time there is. It measures

@@ -160,7 +160,9 @@ std::string SceneResolution::describe(const SimDescription& scene,
   const std::string more =
       fibers_.size() > max_named ? format(" and ", fibers_.size() - max_named, " more") : "";
   const bool is_slow = choice.share > 1.0;
-  return format("real_time: the scene ", is_slow ? "cannot be had in real time; it " : "", "takes ",
+  return format("real_time: the scene ", is_slow ? "cannot be had in real time; it " : "",
+                choice.is_extrapolated ? "is expected, by what there was time to measure, to take "
+                                       : "takes ",
                 choice.share, " of the time there is on one core, with ", scene.substeps,
                 " substeps, ", segments, more, " (accuracy ", 100.0 * choice.resolution.substeps,
                 " % of substeps, ", 100.0 * choice.resolution.segments, " % of segments)");

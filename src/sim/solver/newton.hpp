@@ -92,6 +92,7 @@ class NewtonSolver {
     double predicted_decrease = 0.0;   ///< minus the directional derivative of a whole step [J]
     double scale = 1.0;                ///< factor for the next step, if the last one was too short
     std::uint32_t corrections = 0;     ///< iterations of correct_short_steps()
+    double residual_before = 0.0;      ///< of the iteration before [m/s]
     bool is_free = true;               ///< nothing holds or may touch its rods
     bool is_active = true;             ///< iterates
     bool has_friction_of_now = false;  ///< by the normal forces where its rods are
