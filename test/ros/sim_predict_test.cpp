@@ -145,7 +145,8 @@ TEST_F(SimPredictTest, WhatMayNotBeAskedIsRefused) {
   EXPECT_NE(error(trajectory).find("at most 1e+03 m/s are allowed"), std::string::npos);
   trajectory = HoldTrajectory();
   trajectory.frame = "nowhere";
-  EXPECT_EQ(error(trajectory), "trajectory 0: nothing is held by frame 'nowhere', and no obstacle follows it");
+  EXPECT_EQ(error(trajectory),
+            "trajectory 0: nothing is held by frame 'nowhere', and no obstacle follows it");
   EXPECT_EQ(predict(request_of(-1.0)).message,
             "duration is -1 s, it must be more than 0 and at most 3.6e+03");
 }
