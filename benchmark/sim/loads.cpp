@@ -5,7 +5,9 @@
 #include <thread>
 
 #include "benchmark/sim/effect_scene.hpp"
+#include "fiber_proximity/environment/scene/environment_scene.hpp"
 #include "fiber_proximity/sim/attachment.hpp"
+#include "fiber_proximity/sim/scene/prediction.hpp"
 #include "src/accuracy/statistics.hpp"
 #include "validation/sim/contact_scenes.hpp"
 #include "validation/sim/harness_scene.hpp"
@@ -82,6 +84,34 @@ double time_harness(const LoadSizes& sizes, std::uint32_t substeps, std::uint32_
   return time_of_run(stepper, sizes, substeps);
 }
 
+/// What a planner asks: a cable over a table and a post, taken along at one end. [ms]
+double time_prediction(const LoadSizes& sizes, std::uint32_t substeps, std::uint32_t threads) {
+  const std::string text =
+      "{substeps: " + std::to_string(substeps) +
+      ", fibers: [{name: cable, shape: {arc: {from: [-0.4, 0, 0.5], to: [0.4, 0, 0.5], length: "
+      "1.2}}, segments: " +
+      std::to_string(sizes.cable_segments) +
+      ", radius: 0.004, material: power_cable}], effects: [gravity, stretch, bend, damping, "
+      "self_contact, environment_contact, friction, {attachment: [{fiber: cable, node: first}, "
+      "{fiber: cable, node: last}]}], environment: {obstacles: [{id: table, half_spaces: [{coef: "
+      "[0, 0, 1, 0]}]}, {id: post, primitives: [{type: cylinder, dimensions: [0.6, 0.03]}], pose: "
+      "{position: [0, 0.1, 0.3]}}]}}";
+  const SimDescription description = read_sim_scene(parse_yaml(text, "cable"), mesh_files("."));
+  SimScene scene = make_sim_scene(description, threads);
+  for (std::uint32_t i = 0; i < std::max(1U, sizes.frames / 4); ++i) {
+    scene.advance();
+  }
+  PredictionOptions options;
+  options.duration = sizes.frames * frame_time;
+  const Placement end{{0.3, 0.3, 0.4}, Vector3d::UnitX(), Vector3d::UnitY()};
+  return time_of([&] {
+    SimScene copy = copy_sim_scene(description, scene, threads);
+    follow(copy,
+           std::vector<HoldTrajectory>{{0, sizes.cable_segments, {{0.8 * options.duration, end}}}});
+    predict(copy, options);
+  });
+}
+
 }  // namespace
 
 void measure_loads(const LoadSizes& sizes, const std::function<void(const LoadResult&)>& report) {
@@ -98,6 +128,7 @@ void measure_loads(const LoadSizes& sizes, const std::function<void(const LoadRe
       };
       add("cables in contact", sizes.cables, sizes.cable_segments, time_cables);
       add("swinging rods", sizes.rods, sizes.rod_segments, time_rods);
+      add("prediction of a cable", 1, sizes.cable_segments, time_prediction);
       add("harness on an arm", 1 + sizes.branches, sizes.branch_segments, time_harness);
     }
   }

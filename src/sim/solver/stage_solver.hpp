@@ -67,8 +67,8 @@ class StageSolver {
   /// one: the last solve was its last.
   void end_step(const Rods& rods);
 
-  /// What contacts press in the next step that were there when it began is no velocity: nobody has
-  /// pressed them together, they were put there. So is what rods begin with.
+  /// Has contacts that press when the next step begins return what they press, as after an impact:
+  /// nobody has pressed them together, a rod or an obstacle was put there.
   void expect_pressed_contacts() { is_returning_.assign(is_returning_.size(), true); }
 
   /// Takes what another solver of the same rods has come to in its steps.
