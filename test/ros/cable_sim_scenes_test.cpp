@@ -48,11 +48,10 @@ TEST_F(OwnSceneTest, ASimulationThatFailsStopsAndBeginsAgain) {
                  "[{fiber: one, path: [" +
                      path + "]}]\n");
   };
-  // Both ends of the second part are numbers, but the way between them is none.
-  write(
-      with_path("{time: 0}, {time: 0.5, position: [-1e308, 0, 0.5]}, "
-                "{time: 1, position: [1e308, 0, 0.5]}"));
-  node_test::RunningNode own_sim(command(), folder_.path("output.txt"));
+  write(with_path("{time: 0}, {time: 0.5}, {time: 1, position: [-0.1, 0, 0.5]}"));
+  std::vector<std::string> failing = command();
+  failing.front() = FAILING_CABLE_SIM;
+  node_test::RunningNode own_sim(failing, folder_.path("output.txt"));
   ASSERT_TRUE(step(0).success);
   const StepSimulation::Response failed = step(100);
   EXPECT_FALSE(failed.success);

@@ -172,10 +172,13 @@ add_executable(cable_sim_test EXCLUDE_FROM_ALL
   ros/sim_obstacles_test.cpp
   ros/sim_predict_test.cpp
 )
-target_compile_definitions(cable_sim_test PRIVATE CABLE_SIM="$<TARGET_FILE:cable_sim>")
+add_executable(failing_cable_sim EXCLUDE_FROM_ALL ros/failing_cable_sim.cpp)
+target_link_libraries(failing_cable_sim fiber_proximity_ros fiber_proximity_options)
+target_compile_definitions(cable_sim_test PRIVATE
+  CABLE_SIM="$<TARGET_FILE:cable_sim>" FAILING_CABLE_SIM="$<TARGET_FILE:failing_cable_sim>")
 target_link_libraries(cable_sim_test
   fiber_proximity_ros fiber_proximity_options ${GTEST_LIBRARIES})
-add_dependencies(tests cable_sim_test)
+add_dependencies(tests cable_sim_test failing_cable_sim)
 add_rostest(ros/cable_sim.test DEPENDENCIES cable_sim_test cable_sim)
 add_rostest(ros/demo.test DEPENDENCIES node_test proximity_node cable_sim)
 add_rostest(ros/sim_forces.test DEPENDENCIES cable_sim_test cable_sim)

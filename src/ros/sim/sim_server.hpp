@@ -66,14 +66,14 @@ class SimServer {
   ///         that does not come
   SimServer(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
             const SimOptions& options);
+  /// Begins with a scene of the caller's; ~reset begins with that of the file.
+  SimServer(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
+            const SimOptions& options, const fiber::SimDescription& description);
   ~SimServer();
   SimServer(const SimServer&) = delete;
   SimServer& operator=(const SimServer&) = delete;
 
  private:
-  SimServer(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
-            const SimOptions& options, const fiber::SimDescription& description);
-
   void advertise_services();
   SceneCopy copy_scene();
   void keep_pace();
