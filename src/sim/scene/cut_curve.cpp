@@ -19,11 +19,17 @@ struct Along {
   std::int64_t rigid;
 };
 
-Along along_rest(double share, const RigidShares& rigid) {
-  double total = 1.0;
+/// The share of the length that is not rigid.
+double rest_of(const RigidShares& rigid) {
+  double rest = 1.0;
   for (const auto& [from, to] : rigid) {
-    total -= to - from;
+    rest -= to - from;
   }
+  return rest;
+}
+
+Along along_rest(double share, const RigidShares& rigid) {
+  const double total = rest_of(rigid);
   Along along{0.0, 0};
   double begin = 0.0;
   for (const auto& [from, to] : rigid) {
@@ -44,10 +50,7 @@ Along along_rest(double share, const RigidShares& rigid) {
 NodesAt nodes_at(const std::vector<double>& shares, std::int64_t segments,
                  const RigidShares& rigid) {
   const std::int64_t edges = segments - static_cast<std::int64_t>(rigid.size());
-  double rest = 1.0;
-  for (const auto& [from, to] : rigid) {
-    rest -= to - from;
-  }
+  const double rest = rest_of(rigid);
   constexpr double least_rest = 1e-6;  // below, its segments are hardly longer than rounding
   if (edges > 0 && rest < least_rest) {
     throw std::invalid_argument(format("its rigid sections leave ", std::max(0.0, rest),
