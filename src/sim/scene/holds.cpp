@@ -148,7 +148,6 @@ SimHold read_hold(const YamlField& entry, std::uint32_t rod, const Rods& rods) {
   if (period) {
     close_path(*period, hold.path);
   }
-  constexpr double max_speed = 1000.0;  // [m/s]
   if (const double speed = fastest_speed(hold.path); !(speed <= max_speed)) {
     throw std::invalid_argument(hold.place + " moves with " + std::to_string(speed) +
                                 " m/s, it must be at most " + std::to_string(max_speed) + " m/s");

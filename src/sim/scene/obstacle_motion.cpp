@@ -19,7 +19,6 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double max_obstacle_speed = 1000.0;  // [m/s]
 constexpr double unit_tolerance = 1e-3;
 constexpr double far_away = 1e6;  // [m]
 
@@ -87,11 +86,11 @@ void require_slow(const SimMovingObstacle& obstacle) {
         from.orientation.angularDistance(to.orientation) + std::abs(to.angle - from.angle);
     const double speed =
         ((to.position - from.position).norm() + far * turn) / (to.time - from.time);
-    if (!(speed <= max_obstacle_speed)) {
+    if (!(speed <= max_speed)) {
       throw std::invalid_argument(obstacle.place + " moves with " + std::to_string(speed) +
                                   " m/s from " + std::to_string(from.time) + " s to " +
                                   std::to_string(to.time) + " s, it must be at most " +
-                                  std::to_string(max_obstacle_speed) + " m/s");
+                                  std::to_string(max_speed) + " m/s");
     }
   }
 }

@@ -12,6 +12,9 @@
 
 namespace fiber {
 
+/// Nothing in a scene moves faster than this by its own account [m/s].
+constexpr double max_speed = 1000.0;
+
 /// Joins words and numbers, those with three digits, to one text.
 template <class... Parts>
 std::string format(const Parts&... parts) {

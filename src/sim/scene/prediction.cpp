@@ -19,8 +19,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double max_speed = 1000.0;  // [m/s]
-
 [[noreturn]] void refuse(const std::string& problem) { throw std::invalid_argument(problem); }
 
 bool is_unit(const Vector3d& vector) { return std::abs(vector.norm() - 1.0) < 1e-6; }
