@@ -81,9 +81,7 @@ struct Prediction {
 
 /// Where the hold of a node of a rod has it now, counted from the rod's first one; or where the
 /// node is if nothing holds it, with directions along x and y.
-/// @throws std::invalid_argument for a scene without the effect attachment, for a node that there
-/// is
-///         not
+/// @throws std::invalid_argument without the effect attachment, and for a node that is not there
 Placement placement_now(const SimScene& scene, std::uint32_t rod, std::uint32_t node);
 
 /// Has holds of a scene follow trajectories from now on.
