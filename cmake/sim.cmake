@@ -68,6 +68,7 @@ add_library(sim_scene OBJECT
   src/sim/scene/fibers.cpp
   src/sim/scene/force_file.cpp
   src/sim/scene/holds.cpp
+  src/sim/scene/joined_holds.cpp
   src/sim/scene/joints.cpp
   src/sim/scene/keys.cpp
   src/sim/scene/loads.cpp

@@ -52,7 +52,7 @@ class Arm:
     def hear(self, stop):
         self.may_move_until = 0.0 if stop.data else time.monotonic() + SILENCE
 
-    def move(self, _event):
+    def move(self):
         now = time.monotonic()
         if not self.is_guarded or now < self.may_move_until:
             self.gone = min(1.0, self.gone + (now - self.last) / self.duration)
@@ -69,8 +69,13 @@ def main():
         rospy.logfatal("~speed is %s, it must be above 0 rad/s", speed)
         return 1
     arm = Arm(speed, rospy.get_param("~guarded", False))
-    rospy.Timer(rospy.Duration(1.0 / RATE), arm.move)
-    rospy.spin()
+    rate = rospy.Rate(RATE)
+    while not rospy.is_shutdown():
+        arm.move()
+        try:
+            rate.sleep()
+        except rospy.ROSInterruptException:
+            break
     return 0
 
 

@@ -167,14 +167,16 @@ def main():
     joints = rospy.Publisher("joint_states", JointState, queue_size=1)
     fibers = rospy.Publisher("fibers", FiberArray, queue_size=1)
 
-    def publish(_event):
+    rate = rospy.Rate(RATE)
+    while not rospy.is_shutdown():
         stamp = rospy.Time.now()
         time = stamp.to_sec() % PERIOD
         joints.publish(joint_state(arm, time, stamp))
         fibers.publish(fiber_array(time, stamp))
-
-    rospy.Timer(rospy.Duration(1.0 / RATE), publish)
-    rospy.spin()
+        try:
+            rate.sleep()
+        except rospy.ROSInterruptException:
+            break
     return 0
 
 

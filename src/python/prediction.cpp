@@ -151,6 +151,7 @@ py::dict to_dict(Prediction& told, std::size_t points) {
   dict["touches"] = to_array(touch_dtype(), told.touches);
   dict["tensions"] = to_array(greatest_force_dtype(), told.tensions);
   dict["holds"] = to_array(greatest_force_dtype(), told.holds);
+  dict["joints"] = to_array(greatest_force_dtype(), told.joints);
   dict["time"] = told.time;
   dict["problem"] = told.problem;
   dict["unbalanced_frames"] = told.unbalanced_frames;
@@ -170,8 +171,8 @@ duration : float [s]
 trajectories : list of dict
     Each of a held node: ``fiber`` (name or index), ``node``, ``times`` (k,) [s] from now, rising,
     ``positions`` (k, 3) [m], and for clamps ``tangents`` and ``directors`` (k, 3) of unit length,
-    across each other; without, a clamp keeps those that it has. In between it moves on straight lines, before the first of them from where it
-    is.
+    across each other; without, a clamp keeps those that it has. In between it moves on straight
+    lines, before the first of them from where it is.
 sample_period : float [s]
     From one sample of the positions to the next; 0: only where they are in the end.
 margin : float [m]
@@ -183,8 +184,9 @@ dict
     ``times`` (k,) [s] and ``positions`` (k, n, 3) [m] of the samples; ``clearances``, the least
     distance of each pair of bodies, with ``clearance_times`` and ``clearance_is_object`` (whether
     fiber_b is an object); ``touches`` with the fields fiber, is_object, other, first, last, force
-    (the greatest, all contacts together) and time; ``tensions`` and ``holds``, the greatest of each
-    fibre and of each hold, with the fields fiber, index, force, time; ``time`` [s], how far it came,
+    (the greatest, all contacts together) and time; ``tensions``, ``holds`` and ``joints``, the
+    greatest of each fibre, of each hold and of each joint on each of its nodes, with the fields
+    fiber, index, force, time; ``time`` [s], how far it came,
     and ``problem``, why no further; ``unbalanced_frames``.
 
 Raises

@@ -54,7 +54,7 @@ TEST(GravityInTime, IsThatOfTheEndOfTheStep) {
   EXPECT_EQ(error_of([&] {
               GravityInTime(TimeTable<Vector3d>({{0.0, {0, 0, 0}}, {1.0, {nan, 0, 0}}}, false));
             }),
-            "gravity: the acceleration must be finite");
+            "gravity: the acceleration is (nan, 0.000000, 0.000000) m/s^2, it must be finite");
 }
 
 }  // namespace

@@ -17,11 +17,11 @@ namespace fiber::test {
 
 /// What a scene may call for beside rods alike all along that fall on a table: tests that are about
 /// all scenes go through these.
-enum class Extra { NONE, LOADS, MOMENT, SECTIONS, BALL, WELD, CLOSED, LIFT };
+enum class Extra { NONE, LOADS, MOMENT, SECTIONS, BALL, WELD, CLOSED, LIFT, STRIPS };
 
 inline std::string name_of(Extra extra) {
-  const char* const names[] = {"plain", "loads", "moment", "sections",
-                               "ball",  "weld",  "closed", "lift"};
+  const char* const names[] = {"plain", "loads",  "moment", "sections", "ball",
+                               "weld",  "closed", "lift",   "strips"};
   return names[static_cast<std::size_t>(extra)];
 }
 
@@ -34,6 +34,26 @@ inline void add_plug(Rods& rods, std::uint32_t rod, std::uint32_t edge) {
   plug.radius = radius;
   plug.is_rigid = true;
   rods.set_sections(rod, {plug});
+}
+
+/// Makes rods flat: four times as stiff to one side as across it, each to another one.
+/// @returns what they resist by beyond round rods, twist included
+inline Effects make_strips(Rods& rods) {
+  for (RodSection& section : rods.sections) {
+    section.bending_ratio = 4.0;
+  }
+  Effects all;
+  all.push_back(std::make_unique<Twist>(rods));
+  for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
+    const double angle = 0.4 + 0.9 * rod;
+    const Eigen::Vector3d& tangent = rods.start_tangents[rods.first(rod)];
+    const Eigen::Vector3d& director = rods.directors[rods.first(rod)];
+    rods.set_stiff_side(rod,
+                        std::cos(angle) * director + std::sin(angle) * tangent.cross(director));
+  }
+  all.push_back(std::make_unique<AnisotropicBend>());
+  all.push_back(std::make_unique<AnisotropicDamping>(std::make_shared<Damping>(0.01)));
+  return all;
 }
 
 /// A ring of so many edges, level, at a height.
@@ -67,7 +87,7 @@ class ExtraScene {
       bare_.add(ring(0.06, height, 32), radius, rubber(radius));
     }
     rods_ = bare_;
-    loads_of(rods_);
+    effects_of(rods_);
     joints_of(rods_);
   }
 
@@ -84,8 +104,8 @@ class ExtraScene {
 
   void add_effects(Effects& effects) const {
     Rods rods = bare_;
-    if (auto loads = loads_of(rods)) {
-      effects.push_back(std::move(loads));
+    for (auto& effect : effects_of(rods)) {
+      effects.push_back(std::move(effect));
     }
   }
 
@@ -137,6 +157,18 @@ class ExtraScene {
                          {{first, 0}, {first + 1, 0}, {first + 2, 0}}});
     }
     return joints;
+  }
+
+  /// What they need of rods is added to these: masses of loads, frames and sides of strips.
+  Effects effects_of(Rods& rods) const {
+    if (extra_ == Extra::STRIPS) {
+      return make_strips(rods);
+    }
+    Effects all;
+    if (auto loads = loads_of(rods)) {
+      all.push_back(std::move(loads));
+    }
+    return all;
   }
 
   /// Adds their masses as well; null for none.

@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "fiber_proximity/geometry/segment_distance.hpp"
+#include "fiber_proximity/sim/loads.hpp"
 #include "validation/sim/contact_scenes.hpp"
 
 namespace fiber::test {
@@ -164,6 +166,46 @@ TEST(Forces, OfAClampAreThoseOfStatics) {
   // Inside, the moment falls to nothing at the free end.
   EXPECT_NEAR(forces.bending_moments[segments / 2].norm(), 0.25 * moment.norm(),
               0.02 * moment.norm());
+}
+
+/// In few edges, twisted at its end and bent by its weight, so that what the clamp turns is bent
+/// against it: its moment and those of all else add up to nothing.
+TEST(Forces, OfAClampThatBendsAndTwistsAreThoseOfStatics) {
+  constexpr double radius = 0.005;
+  for (const bool is_last : {false, true}) {
+    Rods rods;
+    std::vector<Vector3d> points = straight(Vector3d::Zero(), {0.4, 0.0, 0.0}, 5);
+    if (is_last) {
+      std::reverse(points.begin(), points.end());
+    }
+    rods.add(points, radius, solid_round_section({1e8, 4e7, 1000.0}, radius));
+    auto twist = std::make_unique<Twist>(rods);
+    const std::uint32_t clamped = is_last ? 5 : 0;
+    Loads::Load load;
+    load.node = is_last ? 0 : 5;
+    load.moment = TimeTable<Vector3d>(Vector3d(0.05, 0.02, 0.0));
+    auto loads = std::make_unique<Loads>();
+    loads->add(rods, load);
+    const Vector3d tangent(is_last ? -1.0 : 1.0, 0.0, 0.0);
+    const Vector3d director = rods.directors[is_last ? 4 : 0];
+    Effects all = effects(std::make_unique<Gravity>(Vector3d(0.0, 0.0, -standard_gravity)),
+                          std::make_unique<Stretch>(), std::make_unique<Bend>(), std::move(twist),
+                          std::move(loads),
+                          hold(rods, {clamp(clamped, {Vector3d::Zero(), tangent, director})}));
+    Stepper stepper(rods, std::move(all), precise());
+    settle(stepper);
+    const RodForces forces = stepper.forces();
+    Vector3d moment = load.moment.at(0.0);
+    for (std::size_t i = 0; i < rods.positions.size(); ++i) {
+      moment +=
+          stepper.rods().positions[i].cross(Vector3d(0.0, 0.0, -standard_gravity * rods.masses[i]));
+    }
+    ASSERT_EQ(forces.holds.size(), 1U);
+    const Vector3d first = stepper.rods().positions[is_last ? 4 : 1].normalized();
+    EXPECT_GT(first.cross(Vector3d::UnitX()).norm(), 0.02) << "it is bent at the clamp";
+    EXPECT_LE((forces.holds[0].moment + moment).norm(), 1e-4 * moment.norm())
+        << forces.holds[0].moment.transpose() << " and " << moment.transpose();
+  }
 }
 
 }  // namespace

@@ -277,7 +277,14 @@ TEST_P(ImpactOf, FreeRodsKeepsMomentum) {
       options.residual = 1e-9;
       Rods again;
       again.add(straight(-along, along, 10), impact_radius, section);
-      Stepper stepper(rods, elastic(), options, contacts_with(nullptr, 0.3), target(again));
+      Effects effects = elastic();
+      if (GetParam() == Extra::STRIPS) {
+        for (auto& effect : make_strips(rods)) {
+          effects.push_back(std::move(effect));
+        }
+      }
+      Stepper stepper(rods, std::move(effects), options, contacts_with(nullptr, 0.3),
+                      target(again));
       const Vector3d momentum = momentum_of(rods);
       std::uint32_t impacts = 0;
       for (int i = 0; i < 24; ++i) {
@@ -296,7 +303,7 @@ TEST_P(ImpactOf, FreeRodsKeepsMomentum) {
 
 INSTANTIATE_TEST_SUITE_P(Scenes, ImpactOf,
                          testing::Values(Extra::NONE, Extra::SECTIONS, Extra::BALL, Extra::WELD,
-                                         Extra::CLOSED),
+                                         Extra::CLOSED, Extra::STRIPS),
                          [](const auto& extra) { return name_of(extra.param); });
 
 }  // namespace

@@ -90,7 +90,7 @@ std::vector<Vector3d> contact_gradient(const ExtraScene& scene, const Rods& befo
   systems.reserve(after.count());
   std::vector<RodSystem*> pointers;
   for (std::uint32_t rod = 0; rod < after.count(); ++rod) {
-    packs[rod].resize(after.node_count(rod), 3);
+    packs[rod].resize(after.node_count(rod), unknowns_of(after));
     packs[rod].set_zero();
     systems.emplace_back(packs[rod], 0);
     pointers.push_back(&systems.back());
@@ -99,8 +99,9 @@ std::vector<Vector3d> contact_gradient(const ExtraScene& scene, const Rods& befo
   std::vector<Vector3d> gradient;
   for (std::uint32_t rod = 0; rod < after.count(); ++rod) {
     for (std::size_t i = 0; i < after.node_count(rod); ++i) {
-      gradient.emplace_back(systems[rod].gradient(3 * i), systems[rod].gradient(3 * i + 1),
-                            systems[rod].gradient(3 * i + 2));
+      const std::size_t x = unknowns_of(after) * i;
+      gradient.emplace_back(systems[rod].gradient(x), systems[rod].gradient(x + 1),
+                            systems[rod].gradient(x + 2));
     }
   }
   return gradient;
@@ -137,17 +138,22 @@ std::vector<double> residuals(const ExtraScene& scene, const Rods& before, const
   Effects effects = effects_of(scene);
   Rods start = before;
   begin(effects, start, balance_step);
-  const std::vector<Vector3d> of_contacts = contact_gradient(scene, before, after, time, anchors);
+  Rods now = after;  // angles are counted from the directors with which the step began
+  now.directors = before.directors;
+  now.start_tangents = before.start_tangents;
+  const std::vector<Vector3d> of_contacts = contact_gradient(scene, before, now, time, anchors);
   const std::vector<Vector3d> of_welds = weld_gradient(scene, after);
   std::vector<Vector3d> forces;
   for (std::uint32_t rod = 0; rod < after.count(); ++rod) {
-    VectorXd gradient = VectorXd::Zero(3 * after.node_count(rod));
+    std::vector<Vector3d> gradient(after.node_count(rod), Vector3d::Zero());
     for (const auto& effect : effects) {
-      gradient += derivatives_of(*effect, after, rod).gradient;
+      const VectorXd all = derivatives_of(*effect, now, rod).gradient;
+      for (std::size_t i = 0; i < gradient.size(); ++i) {
+        gradient[i] += all.segment<3>(static_cast<Eigen::Index>(unknowns_of(now) * i));
+      }
     }
-    for (std::uint32_t i = 0; i < after.node_count(rod); ++i) {
-      forces.emplace_back(-gradient.segment<3>(3 * Eigen::Index{i}) - of_contacts[forces.size()] -
-                          of_welds[forces.size()]);
+    for (const Vector3d& each : gradient) {
+      forces.emplace_back(-each - of_contacts[forces.size()] - of_welds[forces.size()]);
     }
   }
   std::vector<double> left;
@@ -236,7 +242,8 @@ TEST_P(Residual, IsWhatIsLeftOfEachNodesEquation) {
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Residual,
                          testing::Values(Extra::NONE, Extra::LOADS, Extra::MOMENT, Extra::SECTIONS,
-                                         Extra::BALL, Extra::WELD, Extra::CLOSED, Extra::LIFT),
+                                         Extra::BALL, Extra::WELD, Extra::CLOSED, Extra::LIFT,
+                                         Extra::STRIPS),
                          [](const auto& extra) { return name_of(extra.param); });
 
 /// A thin stiff rod that hangs from one end, let go level, in steps of 1/240 s.

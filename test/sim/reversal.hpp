@@ -40,6 +40,9 @@ class Reversal {
     if (!rods.angles.empty()) {
       effects.push_back(std::make_unique<Twist>(rods));
     }
+    if (!rods.stiff_sides.empty()) {
+      effects.push_back(std::make_unique<AnisotropicBend>());
+    }
     for (Eigen::Vector3d& velocity : rods.velocities) {
       velocity.setZero();
     }

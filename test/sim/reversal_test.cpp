@@ -192,7 +192,7 @@ TEST_P(ExtraReversal, RisesFreely) {
 
 INSTANTIATE_TEST_SUITE_P(Scenes, ExtraReversal,
                          testing::Values(Extra::LOADS, Extra::MOMENT, Extra::SECTIONS, Extra::BALL,
-                                         Extra::WELD, Extra::CLOSED, Extra::LIFT),
+                                         Extra::WELD, Extra::CLOSED, Extra::LIFT, Extra::STRIPS),
                          [](const auto& extra) { return name_of(extra.param); });
 
 /// Settled to the full residual, or in few iterations as shipped scenes have.

@@ -101,7 +101,11 @@ TEST(Rods, SolidSectionsFollowFromTheMaterial) {
 }
 
 TEST(Effects, RefuseBadParameters) {
-  expect_error([] { Gravity({0, 0, infinity}); }, "gravity: the acceleration must be finite");
+  expect_error(
+      [] {
+        Gravity({0, 0, infinity});
+      },
+      "gravity: the acceleration is (0.000000, 0.000000, inf) m/s^2, it must be finite");
   for (const double bad : {-1.0, infinity, nan}) {
     const std::string value = std::to_string(bad);
     expect_error([&] { Damping{bad}; }, "damping: the relaxation time is " + value +

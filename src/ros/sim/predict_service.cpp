@@ -144,6 +144,9 @@ void fill_in(const fiber::Prediction& told, const SceneCopy& copy, Response& res
   for (const fiber::GreatestForce& hold : told.holds) {
     response.holds.push_back(message_of(hold));
   }
+  for (const fiber::GreatestForce& joint : told.joints) {
+    response.joints.push_back(message_of(joint));
+  }
   response.time = told.time;
   response.unbalanced_frames = told.unbalanced_frames;
   response.success = told.problem.empty();

@@ -92,7 +92,11 @@ class ClampedEnd {
       moment += bending_ * direction_.tangent.cross(placement_.tangent);
     }
     if (rod_.has_twist()) {
-      moment -= twisting_ * twist_ * direction_.tangent;
+      // The twist changes with the clamp's own turn and with what carries it to the edge: the work
+      // of both is that of a moment halfway between the tangents.
+      const Eigen::Vector3d& tangent = placement_.tangent;
+      moment -= twisting_ * twist_ / (1.0 + tangent.dot(direction_.tangent)) *
+                (tangent + direction_.tangent);
     }
     if (bend_) {
       moment += node_ == 0 ? Eigen::Vector3d(-bend_->moment()) : bend_->moment();

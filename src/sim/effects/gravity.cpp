@@ -60,7 +60,10 @@ HWY_EXPORT(add_gravity);
 
 Gravity::Gravity(const Vector3d& acceleration) : acceleration_(acceleration) {
   if (!acceleration.allFinite()) {
-    throw std::invalid_argument("gravity: the acceleration must be finite");
+    throw std::invalid_argument("gravity: the acceleration is (" +
+                                std::to_string(acceleration.x()) + ", " +
+                                std::to_string(acceleration.y()) + ", " +
+                                std::to_string(acceleration.z()) + ") m/s^2, it must be finite");
   }
 }
 

@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "src/sim/scene/keys.hpp"
 #include "src/sim/scene/named_nodes.hpp"
 #include "src/sim/scene/parts.hpp"
-#include "src/sim/scene/reach.hpp"
 #include "src/text/with_context.hpp"
 
 namespace fiber {
@@ -252,38 +250,6 @@ std::unique_ptr<Joints> make_joints(const SimDescription& scene, Rods& rods,
     with_context(each.place, [&] { joints->add(rods, each.joint); });
   }
   return joints;
-}
-
-void require_holds_in_reach(const SimDescription& scene) {
-  for (std::size_t i = 0; i < scene.holds.size() && !scene.rods.joints.empty(); ++i) {
-    const SimHold& hold = scene.holds[i];
-    const std::vector<double> lengths = lengths_from(scene.rods, hold.rod, hold.node);
-    for (std::size_t j = 0; j < i; ++j) {
-      const SimHold& other = scene.holds[j];
-      const double length = lengths[scene.rods.first(other.rod) + other.node];
-      if (other.rod == hold.rod || other.frame || hold.frame || !std::isfinite(length)) {
-        continue;
-      }
-      // Between waypoints both go straight: they are furthest apart at one of them.
-      std::vector<double> times;
-      for (const SimHold* each : {&hold, &other}) {
-        for (const SimWaypoint& waypoint : each->path) {
-          times.push_back(waypoint.time);
-        }
-      }
-      for (const double time : times) {
-        const double apart = (position_on(hold, time) - position_on(other, time)).norm();
-        if (!(apart <= (1.0 + scene.max_strain) * length)) {
-          throw std::invalid_argument(
-              format(hold.place, " and ", other.place, " hold ",
-                     name_of(scene, {hold.rod, hold.node}), " and ",
-                     name_of(scene, {other.rod, other.node}), " ", apart, " m from each other at ",
-                     time, " s: what joins them is ", length, " m long, and may be stretched to ",
-                     (1.0 + scene.max_strain) * length, " m (max_strain)"));
-        }
-      }
-    }
-  }
 }
 
 }  // namespace fiber

@@ -46,9 +46,10 @@ std::vector<double> joint_shares(const std::vector<JointEntry>& joints, const Fi
 /// @throws std::invalid_argument naming file, line and value, what is allowed, and the fibre
 void find_joints(const std::vector<JointEntry>& entries, SimDescription& scene);
 
-/// Checks that no holds, on their paths, tear fibres that are joined: are further from each other
-/// than what is between them is long, and than it may be stretched by max_strain.
-/// @throws std::invalid_argument naming both holds and the time
+/// Checks that holds, on their paths, do not tear what is joined: that each joint has a place which
+/// the fibres between it and all holds reach, stretched by max_strain at most. Joints are looked at
+/// one by one.
+/// @throws std::invalid_argument naming the joint, the holds that tear it together, and the time
 void require_holds_in_reach(const SimDescription& scene);
 
 /// Makes the joints of a scene, and closes its closed fibres.

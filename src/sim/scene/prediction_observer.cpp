@@ -83,6 +83,9 @@ Prediction PredictionObserver::take() {
   for (auto& [node, hold] : holds_) {
     prediction_.holds.push_back(hold);
   }
+  for (auto& [node, joint] : joints_) {
+    prediction_.joints.push_back(joint);
+  }
   return std::move(prediction_);
 }
 
@@ -106,10 +109,8 @@ void PredictionObserver::add_forces(const RodForces& forces) {
                    prediction_.tensions[rod]);
     }
   }
-  for (const RodForces::HoldForce& hold : forces.holds) {
-    const GreatestForce now{hold.rod, hold.node, hold.force.norm(), time()};
-    keep_greater(now, holds_.try_emplace({hold.rod, hold.node}, now).first->second);
-  }
+  keep_greatest(forces.holds, holds_);
+  keep_greatest(forces.joints, joints_);
   std::map<Bodies, double> sums;
   for (const RodForces::ContactForce& contact : forces.contacts) {
     const bool is_object = contact.other_rod == RodForces::ContactForce::obstacle;
@@ -123,6 +124,15 @@ void PredictionObserver::add_forces(const RodForces& forces) {
     if (force > 0.0) {
       add_touch(bodies, force);
     }
+  }
+}
+
+template <class Force>
+void PredictionObserver::keep_greatest(const std::vector<Force>& forces,
+                                       NodeForces& greatest) const {
+  for (const Force& each : forces) {
+    const GreatestForce now{each.rod, each.node, each.force.norm(), time()};
+    keep_greater(now, greatest.try_emplace({each.rod, each.node}, now).first->second);
   }
 }
 

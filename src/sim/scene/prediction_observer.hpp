@@ -44,8 +44,13 @@ class PredictionObserver {
   /// The bodies of a pair: whether the second one is an object, then the two.
   using Bodies = std::tuple<bool, std::uint32_t, std::uint32_t>;
 
+  /// By rod and node.
+  using NodeForces = std::map<std::pair<std::uint32_t, std::uint32_t>, GreatestForce>;
+
   void add_clearances(bool is_object);
   void add_forces(const RodForces& forces);
+  template <class Force>
+  void keep_greatest(const std::vector<Force>& forces, NodeForces& greatest) const;
   void add_touch(const Bodies& bodies, double force);
 
   const SimScene& scene_;
@@ -57,12 +62,13 @@ class PredictionObserver {
   Prediction prediction_;
   std::map<Bodies, PredictedClearance> clearances_;
   std::map<Bodies, PredictedTouch> touches_;
-  std::map<std::pair<std::uint32_t, std::uint32_t>, GreatestForce> holds_;
+  NodeForces holds_;
+  NodeForces joints_;
 };
 
 /// Tells what has been found, a line for each: the least distance of each pair of bodies, who
-/// presses on whom, the greatest tension of each fibre and force of each hold, when, and how
-/// complete that is.
+/// presses on whom, the greatest tension of each fibre and force of each hold and joint, when, and
+/// how complete that is.
 /// @param scene  that it is of
 /// @param margin [m] up to which least distances were looked for
 std::string summary(const Prediction& prediction, const SimScene& scene, double margin);

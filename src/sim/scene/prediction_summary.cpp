@@ -40,6 +40,9 @@ class Summary {
     for (const GreatestForce& hold : prediction.holds) {
       add("hold", "node", hold);
     }
+    for (const GreatestForce& joint : prediction.joints) {
+      add("joint", "node", joint);
+    }
     return text_.str();
   }
 

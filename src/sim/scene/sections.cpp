@@ -124,6 +124,14 @@ void require_rigid_parts(const FiberEntry& fiber, std::int64_t segments) {
       throw std::invalid_argument(section.place +
                                   " is rigid as the one right before it: they must be one");
     }
+    if (fiber.is_closed && i > 0 && fiber.sections.front().is_rigid &&
+        share_of(fiber, fiber.sections.front().part.from) == 0.0 &&
+        share_of(fiber, section.part.to) == 1.0) {
+      throw std::invalid_argument(section.place + " is rigid and ends where the fibre is closed, " +
+                                  fiber.sections.front().place +
+                                  " is rigid and begins there: the fibre must begin elsewhere, so "
+                                  "that they are one");
+    }
     for (const double joint : fiber.joint_shares) {
       if (joint > share_of(fiber, section.part.from) && joint < share_of(fiber, section.part.to)) {
         throw std::invalid_argument(

@@ -55,7 +55,7 @@ struct PredictedTouch {
 /// The greatest of a force in the time that was looked at.
 struct GreatestForce {
   std::uint32_t rod = 0;
-  std::uint32_t node = 0;  ///< of a hold; of a tension the first one of its edge
+  std::uint32_t node = 0;  ///< of a hold or joint; of a tension the first one of its edge
   double force = 0.0;      ///< [N]
   double time = 0.0;       ///< [s] from now
 };
@@ -72,6 +72,7 @@ struct Prediction {
   std::vector<PredictedTouch> touches;         ///< by bodies, those of fibres first
   std::vector<GreatestForce> tensions;         ///< by rod
   std::vector<GreatestForce> holds;            ///< by hold
+  std::vector<GreatestForce> joints;           ///< by node that is joined
   double time = 0.0;                           ///< [s] how far it came
   std::uint32_t unbalanced_frames = 0;         ///< in which a step ended before forces balanced
 
