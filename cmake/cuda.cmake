@@ -1,4 +1,5 @@
-# The engine of GPUs, cuda_tree. Without CUDA's compiler the library is there, and knows no engine.
+# The engine of GPUs, cuda_tree: a library that all programs load, and a module with what runs on GPUs, which that library
+# loads where it is installed. Without CUDA's compiler there is no module.
 
 option(FIBER_PROXIMITY_BUILD_CUDA "Build the engine of GPUs, where CUDA's compiler is installed" ON)
 
@@ -17,17 +18,18 @@ else()
   endif()
 endif()
 
+set(device_module_version ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
 add_library(fiber_proximity_cuda SHARED
   src/cuda/check_candidates.cpp
   src/cuda/cuda_engines.cpp
   src/cuda/cuda_tree_engine.cpp
   src/cuda/device_fibers.cpp
+  src/cuda/device_module.cpp
   src/cuda/device_proximity.cpp
   src/cuda/host_device.cpp
 )
 if(cuda_missing)
   message(STATUS "Engine of GPUs: left out, ${cuda_missing}")
-  target_sources(fiber_proximity_cuda PRIVATE src/cuda/no_device.cpp)
 else()
   # Machine code for what is common, and what newer ones compile when they start.
   if(NOT DEFINED CMAKE_CUDA_ARCHITECTURES)
@@ -46,10 +48,17 @@ else()
     CUDA_VISIBILITY_PRESET hidden POSITION_INDEPENDENT_CODE ON)
   target_compile_options(fiber_proximity_cuda_kernels PRIVATE --fmad=false --prec-div=false --expt-relaxed-constexpr --threads=0
     -Xcompiler=-Wall,-Wextra $<$<BOOL:${FIBER_PROXIMITY_WERROR}>:--Werror=all-warnings>)
-  target_sources(fiber_proximity_cuda PRIVATE src/cuda/on_threads.cpp)
-  target_link_libraries(fiber_proximity_cuda PRIVATE fiber_proximity_cuda_kernels)
+  add_library(fiber_proximity_cuda_device MODULE src/cuda/on_threads.cpp)
+  target_link_libraries(fiber_proximity_cuda_device
+    PRIVATE fiber_proximity_cuda fiber_proximity_cuda_kernels fiber_proximity_options)
+  # By version, as libraries: modules have no link for that.
+  set_target_properties(fiber_proximity_cuda_device PROPERTIES SUFFIX .so.${device_module_version} INSTALL_RPATH "$ORIGIN"
+    CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+  install(TARGETS fiber_proximity_cuda_device LIBRARY DESTINATION ${library_folder})
 endif()
-target_link_libraries(fiber_proximity_cuda PUBLIC fiber_proximity PRIVATE fiber_proximity_options)
+target_link_libraries(fiber_proximity_cuda PUBLIC fiber_proximity PRIVATE fiber_proximity_options ${CMAKE_DL_LIBS})
+target_compile_definitions(fiber_proximity_cuda PRIVATE
+  FIBER_PROXIMITY_DEVICE_MODULE="libfiber_proximity_cuda_device.so.${device_module_version}")
 # As of the paper's engines.
 target_link_options(fiber_proximity_cuda PRIVATE LINKER:-z,nodelete)
 set_target_properties(fiber_proximity_cuda PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)

@@ -73,7 +73,11 @@ fiber_proximity_precompile(fiber_proximity_python ${core_headers} <pybind11/nump
 fiber_proximity_compile_fast(fiber_proximity_python)
 install(TARGETS fiber_proximity_python LIBRARY DESTINATION ${python_folder})
 # All that a wheel holds: setup.py installs this component.
-install(TARGETS fiber_proximity_python fiber_proximity fiber_proximity_paper fiber_proximity_cuda fiber_proximity_environment
+set(wheel_modules fiber_proximity_python)
+if(TARGET fiber_proximity_cuda_device)
+  list(APPEND wheel_modules fiber_proximity_cuda_device)
+endif()
+install(TARGETS ${wheel_modules} fiber_proximity fiber_proximity_paper fiber_proximity_cuda fiber_proximity_environment
   fiber_proximity_sim LIBRARY DESTINATION fiber_proximity COMPONENT wheel NAMELINK_SKIP EXCLUDE_FROM_ALL)
 if(FIBER_PROXIMITY_BUILD_ROS)
   # By name with rosrun.

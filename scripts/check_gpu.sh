@@ -67,6 +67,8 @@ pack_programs() {
   local program
   for program in "${programs[@]}"; do
     find "$build" -name "$program" -type f -perm -u+x -exec cp {} "$1" \; -quit
+    # The engine loads this one by itself.
+    find "$build" -name 'libfiber_proximity_cuda_device.so.*' -exec cp {} "$1/lib" \;
     cp -Lu /lib/x86_64-linux-gnu/{libpthread.so.0,libdl.so.2,librt.so.1} "$1/lib"  # the driver asks for them
     ldd "$1/$program" | awk '$2 == "=>" { print $3 } $1 ~ /ld-linux/ { print $1 }' | xargs -I{} cp -Lu {} "$1/lib"
   done
@@ -180,7 +182,7 @@ if [ -z "$run" ]; then
   out=${out:-$build/report}
   cmake_arguments=(-DFIBER_PROXIMITY_BUILD_ROS=OFF -DFIBER_PROXIMITY_BUILD_MPI=OFF -DFIBER_PROXIMITY_PEERS=OFF
     -DFIBER_PROXIMITY_BUILD_CUDA=ON)
-  build_package "${programs[@]}"
+  build_package "${programs[@]}" fiber_proximity_cuda_device
   run=${pack:-$build/packed}
   pack_programs "$run"
   if [ -n "$pack" ]; then

@@ -3,6 +3,8 @@
 #   libfiber-proximity       the libraries that need no ROS, and the command-line tools
 #   libfiber-proximity-dev   headers, and what find_package and pkg-config read: catkin's, so it needs the next, too
 #   ros-fiber-proximity      nodes, messages, launch files and rviz's displays
+# of a build with CUDA's compiler:
+#   libfiber-proximity-cuda  what runs on GPUs, which the libraries load where it is installed
 # and of a build with the library for clusters:
 #   libfiber-proximity-mpi      this library, and its tools
 #   libfiber-proximity-mpi-dev  headers, and what find_package reads of its component
@@ -62,6 +64,7 @@ trap 'rm -rf "$work"' EXIT
 whole=$work/whole
 library=$work/libfiber-proximity
 development=$work/libfiber-proximity-dev
+gpu=$work/libfiber-proximity-cuda
 cluster=$work/libfiber-proximity-mpi
 cluster_development=$work/libfiber-proximity-mpi-dev
 ros=$work/ros-fiber-proximity
@@ -97,6 +100,7 @@ take_tools() {
   done
 }
 
+has_gpu() { [ -e "$whole/usr/lib/libfiber_proximity_cuda_device.so.$abi" ] || [ -e "$gpu" ]; }
 has_cluster() { [ -e "$whole/usr/lib/libfiber_proximity_mpi.so" ] || [ -e "$cluster" ]; }
 
 sort_out() {
@@ -109,6 +113,7 @@ sort_out() {
       share/fiber_proximity/cmake/fiber_proximity-mpi*.cmake
     take "$cluster" lib/libfiber_proximity_mpi.so.*
   fi
+  ! has_gpu || take "$gpu" "lib/libfiber_proximity_cuda_device.so.$abi"
   local libraries=(lib/libfiber_proximity{,_compare,_cuda,_environment,_paper,_scenes,_sim}.so)
   take "$development" "${libraries[@]}" include lib/pkgconfig share/fiber_proximity/cmake
   take "$library" "${libraries[@]/%/.$abi}"
@@ -189,6 +194,11 @@ make_packages() {
     "${development_needs[@]}")" "proximity queries for fibres: headers"
   pack "$ros" "libfiber-proximity (= $version), $of_ros, $(comma_joined "${ros_needs[@]}")" \
     "proximity queries for fibres: ROS nodes" "python3-matplotlib, python3-scipy" # of the examples
+  if has_gpu; then
+    local of_gpu
+    of_gpu=$(dependencies "$gpu") || return 1
+    pack "$gpu" "libfiber-proximity (= $version), $of_gpu" "proximity queries for fibres on GPUs"
+  fi
   has_cluster || return 0
   local of_cluster
   of_cluster=$(dependencies "$cluster") || return 1

@@ -269,11 +269,10 @@ void require_device() {
 
 }  // namespace
 
-bool has_cuda() { return true; }
-
-std::unique_ptr<Device> make_cuda_device() {
+/// What device_module.cpp asks for.
+extern "C" FIBER_PROXIMITY_EXPORT Device* fiber_proximity_make_cuda_device() {
   require_device();
-  return std::make_unique<DeviceOf<CudaExecutor>>(std::make_shared<CudaExecutor>());
+  return std::make_unique<DeviceOf<CudaExecutor>>(std::make_shared<CudaExecutor>()).release();
 }
 
 }  // namespace fiber

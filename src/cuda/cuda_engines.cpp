@@ -10,7 +10,7 @@ namespace fiber {
 
 void register_cuda_engines() {
   EngineFamily family;
-  if (has_cuda()) {
+  if (missing_cuda().empty()) {
     family.names = {"cuda_tree"};
   }
   family.make = [](const std::string& name,
@@ -18,8 +18,8 @@ void register_cuda_engines() {
     if (name != "cuda_tree") {
       return nullptr;
     }
-    if (!has_cuda()) {
-      throw std::invalid_argument("this build is without it: CUDA's compiler was not found for it");
+    if (!missing_cuda().empty()) {
+      throw std::invalid_argument(missing_cuda());
     }
     return std::make_unique<CudaTreeEngine>(make_cuda_device(), options);
   };

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "fiber_proximity/export.hpp"
@@ -147,11 +148,12 @@ class Device {
 /// Kernels as loops on this processor: the same answers without a GPU, for tests and trials.
 FIBER_PROXIMITY_EXPORT std::unique_ptr<Device> make_host_device();
 
-/// Whether this library was built with CUDA's compiler.
-FIBER_PROXIMITY_EXPORT bool has_cuda();
+/// Why GPUs cannot be asked: that their part of the engine is not installed. Empty if it is.
+FIBER_PROXIMITY_EXPORT const std::string& missing_cuda();
 
 /// The GPU that CUDA gives first.
-/// @throws std::runtime_error if there is none that serves, saying what was looked for
+/// @throws std::runtime_error if there is none that serves, saying what was looked for, and where
+///         missing_cuda() says something
 FIBER_PROXIMITY_EXPORT std::unique_ptr<Device> make_cuda_device();
 
 }  // namespace fiber

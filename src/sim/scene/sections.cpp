@@ -81,7 +81,7 @@ double share_of(const FiberEntry& fiber, double length) {
 }
 
 void require_straight(const FiberEntry& fiber, const SectionEntry& section) {
-  constexpr double least = 0.99;
+  constexpr double least = 0.999;  // an arc of 9 degrees
   const double from = share_of(fiber, section.part.from);
   const double to = share_of(fiber, section.part.to);
   const auto point_at = [&](double share) -> Eigen::Vector3d {
@@ -127,10 +127,10 @@ void require_rigid_parts(const FiberEntry& fiber, std::int64_t segments) {
     if (fiber.is_closed && i > 0 && fiber.sections.front().is_rigid &&
         share_of(fiber, fiber.sections.front().part.from) == 0.0 &&
         share_of(fiber, section.part.to) == 1.0) {
-      throw std::invalid_argument(section.place + " is rigid and ends where the fibre is closed, " +
-                                  fiber.sections.front().place +
-                                  " is rigid and begins there: the fibre must begin elsewhere, so "
-                                  "that they are one");
+      throw std::invalid_argument(
+          section.place +
+          " is rigid and meets the first section, rigid as well, where the fibre is closed: the "
+          "fibre must begin elsewhere, so that they are one");
     }
     for (const double joint : fiber.joint_shares) {
       if (joint > share_of(fiber, section.part.from) && joint < share_of(fiber, section.part.to)) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "src/sim/scene/prediction_observer.hpp"
 #include "test/sim/scene/scene_fixture.hpp"
 
 namespace fiber {
@@ -201,6 +202,38 @@ TEST_F(PredictionTest, ForcesAreThoseOfStatics) {
   EXPECT_LT(told.touches[0].max_force, 2.0 * weight);
   ASSERT_EQ(told.clearances.size(), 1U);
   EXPECT_NEAR(told.clearances[0].contact.distance, 0.0, 0.001);
+}
+
+/// A branch that hangs from the end of a cable pulls at their joint by its weight, swinging a
+/// little more; each node feels as much.
+TEST_F(PredictionTest, TheGreatestForcesOfJointsAreTold) {
+  const SimDescription description = describe(
+      "fibers:\n"
+      "  - {name: cable, shape: {line: {from: [0, 0, 0], to: [0, 0, -0.5]}}, segments: 10, radius: "
+      "0.005, material: power_cable}\n"
+      "  - {name: branch, shape: {line: {from: [0, 0, -0.5], to: [0, 0, -0.8]}}, segments: 6, "
+      "radius: 0.005, material: power_cable}\n"
+      "effects: [gravity, stretch, bend, damping, {joint: [{nodes: [{fiber: cable, node: last}, "
+      "{fiber: branch}]}]}, {attachment: [{fiber: cable}]}]\n");
+  SimScene scene = make_sim_scene(description, 1);
+  const Rods& rods = scene.stepper->rods();
+  double weight = 0.0;
+  for (std::uint32_t i = rods.first(1); i < rods.end(1); ++i) {
+    weight += 9.81 * rods.masses[i];
+  }
+  PredictionOptions options;
+  options.duration = 2.0;
+  follow(scene, {trajectory_to({0.05, 0, 0}, 1.0)});
+  const Prediction told = predict(scene, options);
+  ASSERT_EQ(told.joints.size(), 2U);
+  EXPECT_EQ(told.joints[0].rod, 0U);
+  EXPECT_EQ(told.joints[0].node, 10U);
+  EXPECT_EQ(told.joints[1].rod, 1U);
+  EXPECT_EQ(told.joints[1].node, 0U);
+  EXPECT_GT(told.joints[0].force, weight);
+  EXPECT_LT(told.joints[0].force, 1.5 * weight);
+  EXPECT_NEAR(told.joints[1].force, told.joints[0].force, 1e-6 * weight);
+  EXPECT_NE(summary(told, scene, 0.1).find("joint: at most "), std::string::npos);
 }
 
 TEST_F(PredictionTest, WhatMayNotBeAskedIsRefusedAndChangesNothing) {

@@ -212,8 +212,8 @@ TEST_F(SimSceneTest, RigidPartsThatCannotBeAreErrors) {
   std::string closed = with_parts("{to: 0.6, rigid: true}, {from: 1.9, rigid: true}");
   closed.replace(closed.find("{line: {from: [0, 0, 0], to: [1, 0, 0]}}"), 40,
                  "{polyline: [[0, 0, 0], [1, 0, 0], [0.5, 0.8660254, 0]]}\n    closed: true");
-  EXPECT_NE(error(closed).find("sections[1] is rigid and ends where the fibre is closed, "
-                               "fibers[0].sections[0] is rigid and begins there"),
+  EXPECT_NE(error(closed).find("sections[1] is rigid and meets the first section, rigid as well, "
+                               "where the fibre is closed"),
             std::string::npos)
       << error(closed);
   std::string bent = with_parts("{from: 0.4, to: 0.7, rigid: true}");
