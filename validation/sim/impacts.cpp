@@ -73,8 +73,8 @@ double simulated_rebound(const Drop& drop) {
 }
 
 Deflection simulated_deflection(Integrator integrator, double step, double restitution,
-                                double friction) {
-  Rods rods = level_rod("silicone_tube", 0.02);
+                                double friction, const std::string& material) {
+  Rods rods = level_rod(material, 0.02);
   std::fill(rods.velocities.begin(), rods.velocities.end(), Vector3d(0.0, 2.0, -2.0));
   const Vector3d before = momentum_of(rods);
   StepperOptions options;

@@ -41,7 +41,7 @@ struct Deflection {
   bool has_hit = false;
 };
 Deflection simulated_deflection(Integrator integrator, double step, double restitution,
-                                double friction);
+                                double friction, const std::string& material = "silicone_tube");
 
 /// A box that flies at a rod across its way, with friction, and takes it along.
 struct Push {
