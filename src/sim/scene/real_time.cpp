@@ -11,11 +11,15 @@
 namespace fiber {
 namespace {
 
-/// [s] of one core, for all measurements of a scene.
+/// [s] of one core, for the measurements that lead to a resolution.
 constexpr double trial_budget = 2.0;
 
 /// [s] of the scene: until then most of what falls has fallen.
 constexpr double trial_time = 3.0;
+
+/// [s] of one core, for measuring a resolution beyond these: a little more than the trial takes
+/// with the one that is looked for.
+constexpr double confirming_budget = 1.25 * aimed_share * trial_time;
 
 /// The accuracies to choose from fall from the coarsest by this factor, to the finest.
 constexpr double accuracy_ratio = 0.9;
@@ -129,10 +133,12 @@ double thread_time() {
 }  // namespace
 
 RealTimeChoice choose_for_real_time(const RealTimeScene& scene) {
-  constexpr double near = 0.1;           // of the aim
+  constexpr double near = 0.1;           // of the aim, relative, as long as the budget lasts
+  constexpr double near_enough = 0.2;    // beyond it
   constexpr double max_growth = 6.0;     // of the share, from a measurement to the next
   constexpr double least_budget = 0.25;  // [s] that a measurement is worth
   constexpr int max_measurements = 10;
+  constexpr int max_confirmed = 3;  // beyond the budget
   double used = 0.0;
   const RealTimeScene counted{scene.work,
                               [&](const Resolution& resolution, double budget) {
@@ -142,24 +148,33 @@ RealTimeChoice choose_for_real_time(const RealTimeScene& scene) {
                               },
                               scene.time_step};
   Measurement best = measure_first(counted);
-  double power = 1.0;  // of the work that the share grows with
-  for (int i = 1; std::abs(best.share / aimed_share - 1.0) > near; ++i) {
-    const bool is_last = used > trial_budget - least_budget || i == max_measurements;
-    const double growth = std::min(aimed_share / best.share,
-                                   is_last ? std::numeric_limits<double>::infinity() : max_growth);
-    const double work = best.work * std::pow(growth, 1.0 / power);
-    const auto next = measure_near(counted, work, is_last ? 0.0 : trial_budget - used, best);
+  std::optional<Measurement> in_time;  // the one of the largest share
+  double power = 1.0;                  // of the work that the share grows with
+  int confirmed = 0;
+  for (int i = 1;; ++i) {
+    if (best.share <= (1.0 + near_enough) * aimed_share &&
+        (!in_time || best.share > in_time->share)) {
+      in_time = best;
+    }
+    const double off = std::abs(best.share / aimed_share - 1.0);
+    const bool is_searching = used <= trial_budget - least_budget && i < max_measurements;
+    if (off <= (is_searching ? near : near_enough) ||
+        (!is_searching && ++confirmed > max_confirmed)) {
+      break;
+    }
+    const double growth =
+        is_searching ? std::min(aimed_share / best.share, max_growth) : aimed_share / best.share;
+    const auto next = measure_near(counted, best.work * std::pow(growth, 1.0 / power),
+                                   is_searching ? trial_budget - used : confirming_budget, best);
     if (!next) {
       break;  // there is nothing nearer to the aim
     }
-    const double ratio = next->work / best.work;
-    if (is_last) {
-      return {next->resolution, best.share * std::pow(ratio, power), true};
-    }
-    power = std::clamp(std::log(next->share / best.share) / std::log(ratio), 0.5, 2.0);
+    power =
+        std::clamp(std::log(next->share / best.share) / std::log(next->work / best.work), 0.5, 2.0);
     best = *next;
   }
-  return {best.resolution, best.share, best.is_extrapolated};
+  const Measurement& chosen = in_time ? *in_time : best;
+  return {chosen.resolution, chosen.share, chosen.is_extrapolated};
 }
 
 std::vector<double> measure_frames(const SimDescription& description, double budget) {

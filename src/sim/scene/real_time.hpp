@@ -36,12 +36,14 @@ struct RealTimeScene {
 struct RealTimeChoice {
   Resolution resolution;
   double share = 0.0;            ///< of the time there is on one core
-  bool is_extrapolated = false;  ///< from a part of its frames, or from another resolution
+  bool is_extrapolated = false;  ///< from a part of its frames
 };
 
 /// Chooses the finest resolution that takes about aimed_share of the time there is. It measures
-/// finer and finer ones, beginning with the coarsest, for two seconds of one core in all. Where
-/// those end, it extrapolates from the last two by a power of the work.
+/// finer and finer ones, beginning with the coarsest, for two seconds of one core in all, and what
+/// the last two lead to by a power of the work. Where these are over, it goes on like that until
+/// one is near enough, three times and for less than two seconds each; otherwise it takes the
+/// finest that was in time.
 /// @throws std::invalid_argument if the scene cannot be made with any of them
 RealTimeChoice choose_for_real_time(const RealTimeScene& scene);
 

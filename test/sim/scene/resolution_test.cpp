@@ -88,6 +88,27 @@ TEST_F(SimSceneTest, RealTimeLooksAheadAtWhatGetsDearer) {
   EXPECT_NEAR(mean / scene.time_step, 0.5, 0.1);
 }
 
+/// What it extrapolates to is measured: from somewhere on, finer segments bring contacts that take
+/// three times as long, which nothing coarser tells.
+TEST_F(SimSceneTest, RealTimeMeasuresWhatItHasChosen) {
+  for (double dearer_from = 3e3; dearer_from < 3e4; dearer_from *= 1.1) {
+    SCOPED_TRACE(dearer_from);
+    const FrameTimer touches = [&](const SimDescription& scene, double budget) {
+      const double work = static_cast<double>(scene.rods.positions.size()) * scene.substeps;
+      const double frame = 5e-7 * work * (work > dearer_from ? 3.0 : 1.0);
+      std::vector<double> times;
+      for (double used = 0.0; times.size() < 180 && used < budget; used += frame) {
+        times.push_back(frame);
+      }
+      return times;
+    };
+    const SimDescription scene = describe(open_text(line, "real_time: true\n"), touches);
+    const double taken = touches(scene, 1.0).front() / scene.time_step;
+    EXPECT_LE(taken, 0.6) << scene.real_time_note;
+    EXPECT_GE(taken, 0.15) << scene.real_time_note;
+  }
+}
+
 TEST_F(SimSceneTest, WhatCannotBeHadInRealTimeSaysSo) {
   const SimDescription scene = describe(open_text(line, "real_time: true\n"), takes(0.01, 1));
   EXPECT_EQ(scene.real_time_note, "");

@@ -171,7 +171,7 @@ using FrameTimer = std::function<std::vector<double>(const SimDescription& scene
 /// max_strain.
 /// docs/scene_keys.md says what they mean.
 /// @param timer for scenes with `real_time`, whose segments and substeps are chosen by it; without
-///              one, the processor time of this thread is measured, for about two seconds
+///              one, the processor time of this thread is measured, for two to eight seconds
 /// @param links of robots, for obstacles that are some
 /// @throws std::invalid_argument naming file, line, field and value, and what is allowed; and the
 ///         fibre where it is about one
