@@ -191,6 +191,9 @@ class Residual : public testing::TestWithParam<Extra> {};
 TEST_P(Residual, IsWhatIsLeftOfEachNodesEquation) {
   SCOPED_TRACE(seed_message());
   Random random(1);
+  // Friction is that of normal forces which are up to 2 % off. Where sections turn, it is among the
+  // largest forces, as little resists that.
+  const double by_friction = GetParam() == Extra::STRIPS ? 1.0 : 0.01;
   for (const double residual : {1e-3, 1e-6}) {
     const ExtraScene scene(scene_of(random), GetParam(), 0.08);
     const Rods& rods = scene.rods();
@@ -226,7 +229,8 @@ TEST_P(Residual, IsWhatIsLeftOfEachNodesEquation) {
       ++balanced;
       contacts = std::max(contacts, stepper->forces().contacts.size());
       for (std::size_t node = 0; node < left.size(); ++node) {
-        ASSERT_LE(left[node], 1.01 * residual + 1e-9) << "step " << i << ", node " << node;
+        ASSERT_LE(left[node], (1.0 + by_friction) * residual + 1e-9)
+            << "step " << i << ", node " << node;
         const Vector3d slip = stepper->rods().velocities[node] - scene.table_velocity();
         still += slip.norm() <= creep ? 1 : 0;
       }
