@@ -15,6 +15,14 @@ else()
   check_language(CUDA)
   if(NOT CMAKE_CUDA_COMPILER)
     set(cuda_missing "CUDA's compiler, nvcc, is not found; see scripts/setup.sh --cuda")
+  else()
+    # Known before the language is enabled, which chooses architectures of its own.
+    execute_process(COMMAND ${CMAKE_CUDA_COMPILER} --version OUTPUT_VARIABLE cuda_version)
+    string(REGEX MATCH "release ([0-9.]+)" cuda_version "${cuda_version}")
+    set(cuda_version "${CMAKE_MATCH_1}")
+    if(cuda_version VERSION_LESS 11.4)
+      set(cuda_missing "CUDA '${cuda_version}' of ${CMAKE_CUDA_COMPILER} is older than 11.4")
+    endif()
   endif()
 endif()
 
@@ -27,18 +35,19 @@ add_library(fiber_proximity_cuda SHARED
   src/cuda/device_module.cpp
   src/cuda/device_proximity.cpp
   src/cuda/host_device.cpp
+  src/cuda/refuse_points.cpp
 )
 if(cuda_missing)
   message(STATUS "Engine of GPUs: left out, ${cuda_missing}")
 else()
   # Machine code for what is common, and what newer ones compile when they start.
   if(NOT DEFINED CMAKE_CUDA_ARCHITECTURES)
-    set(CMAKE_CUDA_ARCHITECTURES 75-real 80-real 86-real 89-real 90)
+    set(CMAKE_CUDA_ARCHITECTURES 75-real 80-real 86)
+    if(cuda_version VERSION_GREATER_EQUAL 11.8)
+      set(CMAKE_CUDA_ARCHITECTURES 75-real 80-real 86-real 89-real 90)
+    endif()
   endif()
   enable_language(CUDA)
-  if(CMAKE_CUDA_COMPILER_VERSION VERSION_LESS 11.4)
-    message(FATAL_ERROR "CUDA ${CMAKE_CUDA_COMPILER_VERSION} is older than 11.4: set FIBER_PROXIMITY_BUILD_CUDA=OFF")
-  endif()
   message(STATUS "Engine of GPUs: CUDA ${CMAKE_CUDA_COMPILER_VERSION} for ${CMAKE_CUDA_ARCHITECTURES}")
   # Alone: the other compiler's options are not for it. Nothing is fused: the same bits as on the processor. Divisions
   # of single precision, which the filter alone has, may be off by two roundings: what they give is a parameter of a
@@ -48,12 +57,13 @@ else()
     CUDA_VISIBILITY_PRESET hidden POSITION_INDEPENDENT_CODE ON)
   target_compile_options(fiber_proximity_cuda_kernels PRIVATE --fmad=false --prec-div=false --expt-relaxed-constexpr --threads=0
     -Xcompiler=-Wall,-Wextra $<$<BOOL:${FIBER_PROXIMITY_WERROR}>:--Werror=all-warnings>)
-  add_library(fiber_proximity_cuda_device MODULE src/cuda/on_threads.cpp)
+  add_library(fiber_proximity_cuda_device MODULE src/cuda/on_threads.cpp src/cuda/refuse_points.cpp)
   target_link_libraries(fiber_proximity_cuda_device
-    PRIVATE fiber_proximity_cuda fiber_proximity_cuda_kernels fiber_proximity_options)
+    PRIVATE fiber_proximity fiber_proximity_cuda_kernels fiber_proximity_options)
   # By version, as libraries: modules have no link for that.
   set_target_properties(fiber_proximity_cuda_device PROPERTIES SUFFIX .so.${device_module_version} INSTALL_RPATH "$ORIGIN"
     CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+  add_dependencies(fiber_proximity_cuda fiber_proximity_cuda_device)
   install(TARGETS fiber_proximity_cuda_device LIBRARY DESTINATION ${library_folder})
 endif()
 target_link_libraries(fiber_proximity_cuda PUBLIC fiber_proximity PRIVATE fiber_proximity_options ${CMAKE_DL_LIBS})

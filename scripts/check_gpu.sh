@@ -61,14 +61,16 @@ batches="10000
 10
 10000 --cables 1"
 
+# built NAME WHAT...: finds a file of the build, which is none that was packed before.
+built() { find "$build" -path "$build/packed" -prune -o -name "$1" -type f "${@:2}"; }
+
 # pack_programs FOLDER: programs, the libraries they load and the loader, without symbols.
 pack_programs() {
   mkdir -p "$1/lib"
   local program
   for program in "${programs[@]}"; do
-    find "$build" -name "$program" -type f -perm -u+x -exec cp {} "$1" \; -quit
-    # The engine loads this one by itself.
-    find "$build" -name 'libfiber_proximity_cuda_device.so.*' -exec cp {} "$1/lib" \;
+    built "$program" -perm -u+x -exec cp {} "$1" \; -quit
+    built 'libfiber_proximity_cuda_device.so.*' -exec cp {} "$1/lib" \; -quit # which the engine loads by itself
     cp -Lu /lib/x86_64-linux-gnu/{libpthread.so.0,libdl.so.2,librt.so.1} "$1/lib"  # the driver asks for them
     ldd "$1/$program" | awk '$2 == "=>" { print $3 } $1 ~ /ld-linux/ { print $1 }' | xargs -I{} cp -Lu {} "$1/lib"
   done

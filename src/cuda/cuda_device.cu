@@ -14,6 +14,13 @@
 #include "src/cuda/device_warp.cuh"
 #include "src/cuda/pinned_pieces.cuh"
 
+// Arguments that are not copied by each thread: compilers know that from 11.7 on.
+#if CUDART_VERSION >= 11070
+#define FIBER_GRID_CONSTANT __grid_constant__
+#else
+#define FIBER_GRID_CONSTANT
+#endif
+
 namespace fiber {
 namespace {
 
@@ -22,7 +29,7 @@ constexpr int threads_per_block = warps_per_block * warp_width;
 
 template <class Call>
 __global__ void __launch_bounds__(threads_per_block)
-    run_each(std::uint32_t count, const __grid_constant__ Call call) {
+    run_each(std::uint32_t count, const FIBER_GRID_CONSTANT Call call) {
   const std::uint32_t index = blockIdx.x * threads_per_block + threadIdx.x;
   if (index < count) {
     call(index);
@@ -31,7 +38,7 @@ __global__ void __launch_bounds__(threads_per_block)
 
 template <class Call>
 __global__ void __launch_bounds__(threads_per_block)
-    run_warps(std::uint32_t count, const __grid_constant__ Call call) {
+    run_warps(std::uint32_t count, const FIBER_GRID_CONSTANT Call call) {
   __shared__ typename Call::Scratch scratch[warps_per_block];
   const std::uint32_t warp = threadIdx.x / warp_width;
   const std::uint32_t index = blockIdx.x * warps_per_block + warp;

@@ -1,6 +1,5 @@
 #include "src/cuda/device_fibers.hpp"
 
-#include <algorithm>
 #include <stdexcept>
 #include <string>
 
@@ -81,29 +80,6 @@ HostFibers host_fibers(const FiberAssembly& fibers, std::vector<double>& radii) 
     host.radii = radii.data();
   }
   return host;
-}
-
-namespace {
-
-/// @param candidates where their points begin, and where those of the last end; none without them
-std::string name_of(std::size_t point, const std::vector<std::uint32_t>* candidates) {
-  if (candidates == nullptr || point >= candidates->back()) {
-    return "point " + std::to_string(point);
-  }
-  const auto next = std::upper_bound(candidates->begin(), candidates->end(), point);
-  return "candidate " + std::to_string(next - candidates->begin() - 1) + ", its point " +
-         std::to_string(point - *(next - 1));
-}
-
-}  // namespace
-
-void refuse_points(const HostFibers& fibers) {
-  for (std::size_t point = 0; point < fibers.point_count; ++point) {
-    const double* const from = fibers.coordinates + 3 * point;
-    require_coordinates(name_of(point, fibers.candidate_points).c_str(),
-                        {from[0], from[1], from[2]});
-  }
-  throw std::invalid_argument("points have changed while they were read");
 }
 
 PairRule pair_rule(double bound, std::uint32_t neighbour_skip, Pairing pairing) {

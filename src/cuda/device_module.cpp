@@ -4,6 +4,7 @@
 #include <dlfcn.h>
 
 #include <stdexcept>
+#include <string>
 
 #include "src/cuda/device.hpp"
 
@@ -15,9 +16,21 @@ struct DeviceModule {
   std::string problem;  // why there is none
 };
 
+/// Beside this library, and nowhere else: another one of that name may be of another version.
+std::string path_of_module() {
+  Dl_info here;
+  if (dladdr(reinterpret_cast<const void*>(&missing_cuda), &here) == 0) {
+    return FIBER_PROXIMITY_DEVICE_MODULE;
+  }
+  const std::string path = here.dli_fname;
+  const std::size_t slash = path.rfind('/');
+  return (slash == std::string::npos ? "./" : path.substr(0, slash + 1)) +
+         FIBER_PROXIMITY_DEVICE_MODULE;
+}
+
 DeviceModule load() {
   DeviceModule loaded;
-  void* const library = dlopen(FIBER_PROXIMITY_DEVICE_MODULE, RTLD_NOW | RTLD_LOCAL);
+  void* const library = dlopen(path_of_module().c_str(), RTLD_NOW | RTLD_LOCAL);
   void* const symbol =
       library != nullptr ? dlsym(library, "fiber_proximity_make_cuda_device") : nullptr;
   if (symbol == nullptr) {

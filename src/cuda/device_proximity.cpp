@@ -1,5 +1,6 @@
 #include "fiber_proximity/cuda/device_proximity.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -34,6 +35,7 @@ void DeviceProximity::take_topology(std::vector<double> radii,
                                     std::vector<std::uint32_t>* candidates) {
   // It looks at the offsets and the radii; where the points are nobody knows yet.
   const std::size_t point_count = offsets_.empty() ? 0 : offsets_.back();
+  require_tree_size(point_count - std::min(point_count, offsets_.size()));  // at least so many
   const FiberAssembly fibers(std::vector<Eigen::Vector3d>(point_count, Eigen::Vector3d::Zero()),
                              offsets_, std::move(radii));
   require_tree_size(fibers.segment_count());

@@ -68,22 +68,55 @@ void require_order(const std::vector<std::int64_t>& strides, std::int64_t value,
   throw py::type_error("points on a device must be float32 or float64, they are " + type);
 }
 
+/// What somebody else's object says of itself.
+template <class Value>
+Value taken(const py::handle& value, const std::string& name) {
+  try {
+    return value.cast<Value>();
+  } catch (const py::cast_error&) {
+    throw py::type_error(name + " of the points is " + py::repr(value).cast<std::string>() +
+                         ", which it may not be");
+  }
+}
+
+template <class Value>
+Value member(const py::dict& interface, const char* key) {
+  const std::string name = std::string("__cuda_array_interface__['") + key + "']";
+  if (!interface.contains(key)) {
+    throw py::type_error("the points have no " + name);
+  }
+  return taken<Value>(interface[key], name);
+}
+
+/// @throws std::invalid_argument for what no array begins at
+DevicePoints require_place(DevicePoints points, std::size_t point_count) {
+  const std::size_t size = points.is_single ? sizeof(float) : sizeof(double);
+  if (point_count > 0 && (points.address == 0 || points.address % size != 0)) {
+    throw std::invalid_argument("points on a device begin at the address " +
+                                std::to_string(points.address) + ", it must be a multiple of " +
+                                std::to_string(size) + " above 0");
+  }
+  return points;
+}
+
 DevicePoints from_cuda_array(const py::object& points, std::size_t point_count) {
-  const auto interface = points.attr("__cuda_array_interface__").cast<py::dict>();
-  require_shape(interface["shape"].cast<std::vector<std::int64_t>>(), point_count);
-  const auto type = interface["typestr"].cast<std::string>();
+  const auto interface =
+      taken<py::dict>(points.attr("__cuda_array_interface__"), "__cuda_array_interface__");
+  require_shape(member<std::vector<std::int64_t>>(interface, "shape"), point_count);
+  const auto type = member<std::string>(interface, "typestr");
   if (type != "<f4" && type != "<f8") {
     refuse_type(quote(type));
   }
   const bool is_single = type == "<f4";
   if (interface.contains("strides") && !interface["strides"].is_none()) {
-    require_order(interface["strides"].cast<std::vector<std::int64_t>>(), is_single ? 4 : 8,
+    require_order(member<std::vector<std::int64_t>>(interface, "strides"), is_single ? 4 : 8,
                   point_count);
   }
   if (interface.contains("mask") && !interface["mask"].is_none()) {
     throw py::type_error("points are masked");
   }
-  return {interface["data"].cast<py::tuple>()[0].cast<std::uintptr_t>(), is_single, points};
+  const auto data = member<std::pair<std::uintptr_t, bool>>(interface, "data");
+  return require_place({data.first, is_single, points}, point_count);
 }
 
 bool is_of_host(std::int32_t device) { return device == CPU || device == CUDA_HOST; }
@@ -115,9 +148,9 @@ DevicePoints from_dlpack(const py::object& points, bool on_gpu, std::size_t poin
   if (tensor.strides != nullptr) {
     require_order({tensor.strides, tensor.strides + tensor.dimensions}, 1, point_count);
   }
-  return {reinterpret_cast<std::uintptr_t>(tensor.data) +
-              static_cast<std::uintptr_t>(tensor.byte_offset),
-          type.bits == 32, capsule};
+  const std::uintptr_t address = reinterpret_cast<std::uintptr_t>(tensor.data) +
+                                 static_cast<std::uintptr_t>(tensor.byte_offset);
+  return require_place({address, type.bits == 32, capsule}, point_count);
 }
 
 }  // namespace
@@ -130,7 +163,9 @@ std::optional<DevicePoints> DevicePoints::of(const py::object& points, bool on_g
   if (py::isinstance<py::array>(points) || !py::hasattr(points, "__dlpack__")) {
     return std::nullopt;
   }
-  const auto device = points.attr("__dlpack_device__")().cast<py::tuple>()[0].cast<std::int32_t>();
+  const std::int32_t device = taken<std::pair<std::int32_t, std::int32_t>>(
+                                  points.attr("__dlpack_device__")(), "__dlpack_device__()")
+                                  .first;
   if (on_gpu && is_of_host(device)) {
     return std::nullopt;  // it is copied from there
   }

@@ -151,6 +151,24 @@ class Device(unittest.TestCase):
             proximity.update(ByDLPack(points, (10, 0)))
         with self.assertRaisesRegex(ValueError, r'type 2, they must be in that of the host'):
             proximity.update(ByDLPack(points, (2, 0)))
+        for data, problem in ((0, False), 'the address 0, it must be a multiple of 8'), (
+                (points.ctypes.data + 4, False), r'the address \d+, it must be a multiple of 8'):
+            with self.assertRaisesRegex(ValueError, problem):
+                proximity.update(OnDevice(points, data=data))
+        for key, value, problem in ('typestr', None, r"\['typestr'\] of the points is None"), (
+                'data', (1.5, False), r"\['data'\] of the points is \(1.5, False\)"), (
+                'data', (-8, False), r"\['data'\] of the points is \(-8, False\)"), (
+                'strides', 'x', r"\['strides'\] of the points is 'x'"):
+            with self.assertRaisesRegex(TypeError, problem):
+                proximity.update(OnDevice(points, **{key: value}))
+        without = OnDevice(points)
+        del without.__cuda_array_interface__['shape']
+        with self.assertRaisesRegex(TypeError, r"the points have no __cuda_array_interface__\['shape'\]"):
+            proximity.update(without)
+        with self.assertRaisesRegex(TypeError, r"__dlpack_device__\(\) of the points is \('x', 0\)"):
+            proximity.update(ByDLPack(points, ('x', 0)))
+        with self.assertRaisesRegex(ValueError, 'cuda_tree takes at most 134217728 segments'):
+            fp.DeviceProximity([0, 2**28 + 2], 0.01, device='host')
         bad = points.copy()
         bad[3, 1] = np.nan
         with self.assertRaisesRegex(ValueError, 'point [0-9]+: [xyz] is .*coordinates must be finite'):
@@ -167,7 +185,7 @@ class Device(unittest.TestCase):
         try:
             fp.DeviceProximity([0, 2], 0.1)
         except RuntimeError as error:
-            self.assertRegex(str(error), 'cuda_tree needs an NVIDIA GPU|cuda_tree is not in this build')
+            self.assertRegex(str(error), 'cuda_tree needs an NVIDIA GPU|cuda_tree: it needs libfiber_proximity_cuda_device')
         else:
             self.skipTest('there is a GPU')
 
