@@ -94,7 +94,8 @@ std::vector<SceneMap> fiber_maps() {
                    "for contacts, stiffness and mass; the fibre's if absent"),
         other_key("rigid", "true or false", "false", "",
                   "it neither bends nor twists: a plug. It is one segment of its length, straight, "
-                  "and gives way to tension by its material")}},
+                  "where the shape turns by about 9 degrees at most, and gives way to tension by "
+                  "its material")}},
       {"repeat",
        "The key `repeat` of a fibre: fibres `NAME_0`, `NAME_1`, and so on.",
        false,
