@@ -5,7 +5,7 @@
 #include <string>
 
 #include "src/bounds/bounding_volume.hpp"
-#include "src/cuda/device.hpp"
+#include "src/cuda/host_fibers.hpp"
 
 namespace fiber {
 namespace {

@@ -68,7 +68,8 @@ SectionEntry read_section(const YamlField& entry, const FiberBody& body) {
 /// Whether it goes from one node to another.
 bool has_nodes(const SectionEntry& section) { return section.radius || section.is_rigid; }
 
-/// The share of a fibre's length where a section begins or ends; that of a joint that is there.
+/// The share of a fibre's length where a section begins or ends; that of a joint or of an end that
+/// is there, but for a rounding.
 double share_of(const FiberEntry& fiber, double length) {
   constexpr double rounding = 1e-9;
   const double share = std::min(1.0, length / fiber.length);
@@ -77,7 +78,7 @@ double share_of(const FiberEntry& fiber, double length) {
       return joint;
     }
   }
-  return share;
+  return share <= rounding ? 0.0 : (share >= 1.0 - rounding ? 1.0 : share);
 }
 
 void require_straight(const FiberEntry& fiber, const SectionEntry& section) {

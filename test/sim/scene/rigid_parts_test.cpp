@@ -186,6 +186,20 @@ TEST_F(SimSceneTest, FibresThatBeginInsideOfAThickPartAreRefused) {
   read(at("0.05"));
 }
 
+/// 0.8 - 0.1 is no 0.7: the end of a part is that of its fibre all the same.
+TEST_F(SimSceneTest, APartThatEndsWithItsFiberLeavesNothingBehind) {
+  std::string text = with_parts("{from: 0.6, to: 0.7, rigid: true}", 20);
+  text.replace(text.find("{line: {from: [0, 0, 0], to: [1, 0, 0]}}"), 40,
+               "{line: {from: [0.1, 0, 1], to: [0.8, 0, 1]}}");
+  const SimScene scene = read(text);
+  const Rods& rods = scene.stepper->rods();
+  EXPECT_EQ(rods.node_count(0), 21U);
+  for (std::uint32_t i = 0; i < 20; ++i) {
+    EXPECT_GT(rods.rest_lengths[i], 0.03) << i;
+  }
+  EXPECT_NEAR(rods.rest_lengths[19], 0.1, 1e-9);
+}
+
 TEST_F(SimSceneTest, RigidPartsThatCannotBeAreErrors) {
   const std::vector<std::pair<std::string, std::string>> refused{
       {"{from: 0.2, to: 0.3, rigid: true}",
