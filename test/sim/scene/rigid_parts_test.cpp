@@ -217,7 +217,7 @@ TEST_F(SimSceneTest, RigidPartsThatCannotBeAreErrors) {
        "2: fibers[0]: its rigid sections leave 0 of its length to 4 of its 5 segments: each of "
        "them is one segment (fibre 'cable')"},
       {"{to: 0.999999999, rigid: true}",
-       "2: fibers[0]: its rigid sections leave 1e-09 of its length to 4 of its 5 segments: each of "
+       "2: fibers[0]: its rigid sections leave 0 of its length to 4 of its 5 segments: each of "
        "them is one segment (fibre 'cable')"},
   };
   for (const auto& [sections, expected] : refused) {
