@@ -70,10 +70,10 @@ pack_programs() {
   local program
   for program in "${programs[@]}"; do
     built "$program" -perm -u+x -exec cp {} "$1" \; -quit
-    built 'libfiber_proximity_cuda_device.so.*' -exec cp {} "$1/lib" \; -quit # which the engine loads by itself
     cp -Lu /lib/x86_64-linux-gnu/{libpthread.so.0,libdl.so.2,librt.so.1} "$1/lib"  # the driver asks for them
     ldd "$1/$program" | awk '$2 == "=>" { print $3 } $1 ~ /ld-linux/ { print $1 }' | xargs -I{} cp -Lu {} "$1/lib"
   done
+  built 'libfiber_proximity_cuda_device.so.*' -exec cp {} "$1/lib" \; -quit # which the engine loads by itself
   strip "$1"/*_test "$1/fiber_bench" "$1"/lib/libfiber* 2>/dev/null || true
   cp "$0" "$1/check_gpu.sh"
 }
@@ -184,7 +184,7 @@ if [ -z "$run" ]; then
   out=${out:-$build/report}
   cmake_arguments=(-DFIBER_PROXIMITY_BUILD_ROS=OFF -DFIBER_PROXIMITY_BUILD_MPI=OFF -DFIBER_PROXIMITY_PEERS=OFF
     -DFIBER_PROXIMITY_BUILD_CUDA=ON)
-  build_package "${programs[@]}" fiber_proximity_cuda_device
+  build_package "${programs[@]}"
   run=${pack:-$build/packed}
   pack_programs "$run"
   if [ -n "$pack" ]; then
