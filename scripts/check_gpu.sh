@@ -116,7 +116,9 @@ sanitize_there() {
   local sanitizer tool
   sanitizer=$(command -v compute-sanitizer || ls /usr/local/cuda/bin/compute-sanitizer 2>/dev/null || true)
   if [ -z "$sanitizer" ]; then
-    echo "## compute-sanitizer: not found" >>"$out/report.md"
+    failed=1
+    echo "check_gpu.sh: compute-sanitizer: FAILED: not found" >&2
+    echo "## compute-sanitizer: FAILED: it is neither on PATH nor in /usr/local/cuda/bin" >>"$out/report.md"
     return
   fi
   for tool in memcheck racecheck; do

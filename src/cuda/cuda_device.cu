@@ -24,6 +24,13 @@
 namespace fiber {
 namespace {
 
+/// That of this thread, as CUDA counts them.
+int current_gpu() {
+  int current = 0;
+  check(cudaGetDevice(&current));
+  return current;
+}
+
 constexpr int warps_per_block = 4;
 constexpr int threads_per_block = warps_per_block * warp_width;
 
@@ -47,7 +54,7 @@ __global__ void __launch_bounds__(threads_per_block)
   }
 }
 
-/// A GPU, in a stream of its own.
+/// The GPU that is the thread's where this is made, in a stream of its own.
 class CudaExecutor {
  public:
   template <class T>
@@ -107,6 +114,28 @@ class CudaExecutor {
     cudaEvent_t event_ = nullptr;
   };
 
+  /// While it lives, the calls of this thread go to the executor's GPU, whichever others have
+  /// chosen, which is theirs again afterwards.
+  class Turn {
+   public:
+    explicit Turn(const CudaExecutor& executor) : own_(executor.own_) {
+      if (others_ != own_) {
+        check(cudaSetDevice(own_));
+      }
+    }
+    ~Turn() {
+      if (others_ != own_) {
+        cudaSetDevice(others_);
+      }
+    }
+    Turn(const Turn&) = delete;
+    Turn& operator=(const Turn&) = delete;
+
+   private:
+    int own_;
+    int others_ = current_gpu();
+  };
+
   CudaExecutor() = default;
   CudaExecutor(const CudaExecutor&) = delete;
   CudaExecutor& operator=(const CudaExecutor&) = delete;
@@ -146,23 +175,17 @@ class CudaExecutor {
     return std::make_shared<PageLock>(data, bytes);
   }
 
-  /// That of the thread that asks, as all calls of CUDA's are.
-  std::optional<int> gpu() const {
-    int own = 0;
-    check(cudaGetDevice(&own));
-    return own;
-  }
+  std::optional<int> gpu() const { return own_; }
 
   void require_own(const void* pointer) {
     cudaPointerAttributes attributes;
     check(cudaPointerGetAttributes(&attributes, pointer));
-    const int own = *gpu();
     const bool is_readable =
         attributes.type == cudaMemoryTypeDevice || attributes.type == cudaMemoryTypeManaged;
-    if (!is_readable || attributes.device != own) {
+    if (!is_readable || attributes.device != own_) {
       throw std::invalid_argument(
           is_readable ? "the points are on GPU " + std::to_string(attributes.device) +
-                            ", the engine is on GPU " + std::to_string(own)
+                            ", the engine is on GPU " + std::to_string(own_)
                       : std::string("the points are not in the memory of a GPU"));
     }
   }
@@ -243,6 +266,7 @@ class CudaExecutor {
     cudaStream_t stream_ = nullptr;
   };
 
+  const int own_ = current_gpu();
   Stream stream_;
   Stream sending_;
   PinnedPieces pinned_;
@@ -267,9 +291,9 @@ void require_device() {
     throw std::runtime_error(wanted + "CUDA finds none");
   }
   cudaDeviceProp device;
-  check(cudaGetDeviceProperties(&device, 0));
+  check(cudaGetDeviceProperties(&device, current_gpu()));
   if (10 * device.major + device.minor < 75) {
-    throw std::runtime_error(wanted + "the first is " + device.name + ", of " +
+    throw std::runtime_error(wanted + "this one is " + device.name + ", of " +
                              std::to_string(device.major) + "." + std::to_string(device.minor));
   }
 }

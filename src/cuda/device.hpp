@@ -136,7 +136,7 @@ FIBER_PROXIMITY_EXPORT std::unique_ptr<Device> make_host_device();
 /// Why GPUs cannot be asked: that their part of the engine is not installed. Empty if it is.
 FIBER_PROXIMITY_EXPORT const std::string& missing_cuda();
 
-/// The GPU that CUDA gives first.
+/// The GPU that is CUDA's current one in this thread: the first, where the program has chosen none.
 /// @throws std::runtime_error if there is none that serves, saying what was looked for, and where
 ///         missing_cuda() says something
 FIBER_PROXIMITY_EXPORT std::unique_ptr<Device> make_cuda_device();

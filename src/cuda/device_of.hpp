@@ -26,12 +26,14 @@ class DeviceOf final : public Device {
   explicit DeviceOf(std::shared_ptr<Executor> executor) : executor_(std::move(executor)) {}
 
   std::unique_ptr<DeviceTree> make_tree() override {
+    const Turn turn(*executor_);
     return std::make_unique<DeviceTreeOf<Executor>>(executor_);
   }
 
   std::uint64_t find(const DeviceTree& a, std::uint32_t first_leaf, std::uint32_t leaf_count,
                      const DeviceTree& b, const PairRule& rule, std::uint64_t most,
                      std::vector<std::uint64_t>& keys) override {
+    const Turn turn(*executor_);
     keys.clear();
     clock_.start(*executor_);
     const std::uint64_t count = search(a, first_leaf, leaf_count, b, rule, most);
@@ -44,6 +46,7 @@ class DeviceOf final : public Device {
   }
 
   DeviceContacts contacts(const DeviceTree& tree, const PairRule& rule, double margin) override {
+    const Turn turn(*executor_);
     clock_.start(*executor_);
     const std::uint32_t count = search_for_contacts(tree, rule);
     // They are there when it returns: others may read them.
@@ -57,6 +60,7 @@ class DeviceOf final : public Device {
 
   DeviceContacts contacts_to_host(const DeviceTree& tree, const PairRule& rule,
                                   double margin) override {
+    const Turn turn(*executor_);
     clock_.start(*executor_);
     const std::uint32_t count = search_for_contacts(tree, rule);
     DeviceContacts contacts =
@@ -74,6 +78,7 @@ class DeviceOf final : public Device {
 
   void touching(const DeviceTree& tree, const PairRule& rule, double margin, bool needs_loops,
                 std::vector<std::uint32_t>& touching, std::vector<std::uint64_t>& asked) override {
+    const Turn turn(*executor_);
     const CandidateView& candidates = tree.candidates();
     touching.assign(candidates.count, 0);
     asked.clear();
@@ -98,6 +103,7 @@ class DeviceOf final : public Device {
 
   void read_points(const DeviceTree& tree, const std::vector<std::uint32_t>& points,
                    double* to) override {
+    const Turn turn(*executor_);
     if (points.empty()) {
       return;
     }
@@ -111,10 +117,12 @@ class DeviceOf final : public Device {
   }
 
   std::shared_ptr<void> lock_pages(const void* data, std::size_t bytes) override {
+    const Turn turn(*executor_);
     return executor_->lock_pages(data, bytes);
   }
 
   std::shared_ptr<void> make_array(const void* from, std::size_t bytes) override {
+    const Turn turn(*executor_);
     auto array = std::make_shared<typename Executor::template Buffer<char>>();
     executor_->upload(static_cast<const char*>(from), bytes, *array);
     clock_.start(*executor_);
@@ -123,6 +131,7 @@ class DeviceOf final : public Device {
     return {array, array->data()};
   }
   void read(const void* from, std::size_t bytes, void* to) override {
+    const Turn turn(*executor_);
     executor_->download_from(static_cast<const char*>(from), bytes, static_cast<char*>(to));
   }
 
@@ -135,6 +144,8 @@ class DeviceOf final : public Device {
   double seconds() const override { return clock_.seconds(); }
 
  private:
+  using Turn = typename Executor::Turn;
+
   static constexpr std::uint64_t first_room = 1024;
   static constexpr std::uint64_t most_pairs = std::numeric_limits<std::uint32_t>::max();
 

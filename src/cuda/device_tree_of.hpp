@@ -13,6 +13,9 @@ namespace fiber {
 
 /// What executors have, whose calls take effect in their order:
 ///
+/// - Turn, which makes the device that of the calling thread for as long as it lives: all others
+/// are
+///   called within one
 /// - Buffer<T>, memory of the device, and HostBuffer<T>, that of the host which kernels write, too:
 ///   DeviceBuffer has what they can
 /// - upload(from, count, buffer), upload_in_place(from, count, buffer), which may read until the
@@ -38,6 +41,7 @@ class DeviceTreeOf final : public DeviceTree {
   explicit DeviceTreeOf(std::shared_ptr<Executor> executor) : executor_(std::move(executor)) {}
 
   void set_topology(const HostTopology& topology) override {
+    const Turn turn(*executor_);
     segment_count_ = static_cast<std::uint32_t>(topology.first_points.size());
     executor_->upload(topology.first_points.data(), topology.first_points.size(), first_points_);
     executor_->upload(topology.fibers.data(), topology.fibers.size(), fibers_);
@@ -48,6 +52,7 @@ class DeviceTreeOf final : public DeviceTree {
   }
 
   void update(const HostFibers& fibers) override {
+    const Turn turn(*executor_);
     view_ = {};
     if (segment_count_ == 0) {
       return;
@@ -86,6 +91,8 @@ class DeviceTreeOf final : public DeviceTree {
   }
 
  private:
+  using Turn = typename Executor::Turn;
+
   static std::uint32_t in_warps(std::uint32_t count) {
     return (count + warp_width - 1) / warp_width;
   }
@@ -105,6 +112,7 @@ class DeviceTreeOf final : public DeviceTree {
 
   template <class Number>
   void update_from(const HostFibers& fibers, const Number* coordinates) {
+    const Turn turn(*executor_);
     view_ = {};
     if (segment_count_ == 0) {
       return;

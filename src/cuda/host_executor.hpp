@@ -1,6 +1,8 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -49,8 +51,20 @@ class HostExecutor {
     void wait() const {}
   };
 
+  class Turn {
+   public:
+    explicit Turn(HostExecutor& executor) : executor_(executor) { ++executor_.turns_; }
+    ~Turn() { --executor_.turns_; }
+    Turn(const Turn&) = delete;
+    Turn& operator=(const Turn&) = delete;
+
+   private:
+    HostExecutor& executor_;
+  };
+
   template <class T>
   void upload(const T* from, std::size_t count, Buffer<T>& to) {
+    assert(turns_ > 0);
     to.resize(count);
     std::copy(from, from + count, to.data());
   }
@@ -65,6 +79,7 @@ class HostExecutor {
   }
   template <class T>
   void download_from(const T* from, std::size_t count, T* to) {
+    assert(turns_ > 0);
     std::copy(from, from + count, to);
   }
 
@@ -94,11 +109,13 @@ class HostExecutor {
 
   template <class Call>
   void for_each(std::uint32_t count, const Call& call) {
+    assert(turns_ > 0);
     for_each_of(count, [&](std::size_t index) { call(static_cast<std::uint32_t>(index)); });
   }
 
   template <class Call>
   void for_each_warp(std::uint32_t count, const Call& call) {
+    assert(turns_ > 0);
     for_each_of(count, [&](std::size_t index) {
       typename Call::Scratch scratch;
       call(HostWarp(), static_cast<std::uint32_t>(index), scratch);
@@ -122,6 +139,9 @@ class HostExecutor {
   void sort(Buffer<std::uint64_t>& keys, std::size_t count, int /*bits*/) {
     std::sort(keys.data(), keys.data() + count);
   }
+
+ private:
+  std::atomic<int> turns_{0};  ///< what is done outside of one would go to others' GPU
 };
 
 }  // namespace fiber
