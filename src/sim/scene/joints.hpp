@@ -46,10 +46,11 @@ std::vector<double> joint_shares(const std::vector<JointEntry>& joints, const Fi
 /// @throws std::invalid_argument naming file, line and value, what is allowed, and the fibre
 void find_joints(const std::vector<JointEntry>& entries, SimDescription& scene);
 
-/// Checks that holds, on their paths, do not tear what is joined: that each joint has a place which
-/// the fibres between it and all holds reach, stretched by max_strain at most. Joints are looked at
-/// one by one.
-/// @throws std::invalid_argument naming the joint, the holds that tear it together, and the time
+/// Checks that holds, on their paths, do not tear what is joined: that joints have places between
+/// which, and between which and holds, fibres reach, stretched by max_strain at most. Paths with
+/// periods are followed until all begin again together, or for 16 rounds of the longest.
+/// @throws std::invalid_argument naming a joint, the holds that tear it together, the time, and by
+///         how much they stretch the fibres
 void require_holds_in_reach(const SimDescription& scene);
 
 /// Makes the joints of a scene, and closes its closed fibres.
