@@ -152,6 +152,11 @@ py::dict to_dict(Prediction& told, std::size_t points) {
   dict["tensions"] = to_array(greatest_force_dtype(), told.tensions);
   dict["holds"] = to_array(greatest_force_dtype(), told.holds);
   dict["joints"] = to_array(greatest_force_dtype(), told.joints);
+  py::list warnings;
+  for (const PredictedWarning& warning : told.warnings) {
+    warnings.append(py::make_tuple(warning.time, warning.text));
+  }
+  dict["warnings"] = warnings;
   dict["time"] = told.time;
   dict["problem"] = told.problem;
   dict["unbalanced_frames"] = told.unbalanced_frames;
@@ -186,8 +191,9 @@ dict
     fiber_b is an object); ``touches`` with the fields fiber, is_object, other, first, last, force
     (the greatest, all contacts together) and time; ``tensions``, ``holds`` and ``joints``, the
     greatest of each fibre, of each hold and of each joint on each of its nodes, with the fields
-    fiber, index, force, time; ``time`` [s], how far it came,
-    and ``problem``, why no further; ``unbalanced_frames``.
+    fiber, index, force, time; ``warnings``, a list of (time, text): what goes wrong on the way, as
+    a node that lags behind what holds it with all its force, the first of each kind; ``time`` [s], how far it came, and ``problem``,
+    why no further; ``unbalanced_frames``.
 
 Raises
 ------

@@ -231,7 +231,7 @@ ExitCode run(const Request& request) {
       forces->write(frame.frame, rods, scene.stepper->forces());
     }
     if (observer) {
-      observer->count_unbalanced();
+      observer->keep_warnings();
       observer->look();
     }
     warnings.tell(scene);

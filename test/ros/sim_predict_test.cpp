@@ -83,6 +83,7 @@ TEST_F(SimPredictTest, WhatIsToldIsWhatComes) {
   EXPECT_EQ(touch->type_b, Contact::OBJECT);
   EXPECT_GT(touch->force, 0.0);
   ASSERT_EQ(told.clearances.size(), told.clearance_times.size());
+  EXPECT_TRUE(told.warnings.empty());
   ASSERT_EQ(told.tensions.size(), 3U);
   EXPECT_GT(told.tensions[1].force, 0.01);
 }

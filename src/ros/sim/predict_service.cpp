@@ -147,6 +147,10 @@ void fill_in(const fiber::Prediction& told, const SceneCopy& copy, Response& res
   for (const fiber::GreatestForce& joint : told.joints) {
     response.joints.push_back(message_of(joint));
   }
+  for (const fiber::PredictedWarning& warning : told.warnings) {
+    response.warnings.push_back(warning.text);
+    response.warning_times.push_back(warning.time);
+  }
   response.time = told.time;
   response.unbalanced_frames = told.unbalanced_frames;
   response.success = told.problem.empty();

@@ -199,7 +199,7 @@ Prediction predict(SimScene& scene, const PredictionOptions& options,
       observer.stop(error.what());
       break;
     }
-    observer.count_unbalanced();
+    observer.keep_warnings();
     observer.look();
   }
   return observer.take();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "fiber_proximity/sim/joints.hpp"
 #include "src/sim/scene/parts.hpp"
@@ -65,8 +66,13 @@ void PredictionObserver::look() {
   prediction_.time = time();
 }
 
-void PredictionObserver::count_unbalanced() {
+void PredictionObserver::keep_warnings() {
   prediction_.unbalanced_frames += scene_.frame.unbalanced > 0 ? 1 : 0;
+  for (SimWarning& warning : frame_warnings(scene_)) {
+    if (!std::exchange(is_warned_[static_cast<std::size_t>(warning.kind)], true)) {
+      prediction_.warnings.push_back({std::move(warning.text), time()});
+    }
+  }
 }
 
 void PredictionObserver::sample() {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -10,6 +11,7 @@
 
 #include "fiber_proximity/query/engine.hpp"
 #include "fiber_proximity/sim/scene/prediction.hpp"
+#include "src/sim/scene/report.hpp"
 
 namespace fiber {
 
@@ -27,9 +29,9 @@ class PredictionObserver {
   /// Looks at the beginning, and at the end of each frame.
   void look();
 
-  /// To be called after each frame: before the first one the last step is that of the running
-  /// scene.
-  void count_unbalanced();
+  /// Keeps what a frame warns of. To be called after each: before the first one the last step is
+  /// that of the running scene.
+  void keep_warnings();
 
   /// Keeps where the fibres are.
   void sample();
@@ -64,6 +66,7 @@ class PredictionObserver {
   std::map<Bodies, PredictedTouch> touches_;
   NodeForces holds_;
   NodeForces joints_;
+  std::array<bool, SimWarning::kinds> is_warned_{};
 };
 
 /// Tells what has been found, a line for each: the least distance of each pair of bodies, who

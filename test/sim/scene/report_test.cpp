@@ -1,9 +1,12 @@
 #include "src/sim/scene/report.hpp"
 
+#include "fiber_proximity/sim/scene/prediction.hpp"
 #include "test/sim/scene/scene_fixture.hpp"
 
 namespace fiber {
 namespace {
+
+using Eigen::Vector3d;
 
 std::string sentences(const std::vector<std::string>& list) {
   std::string text;
@@ -100,6 +103,34 @@ TEST_F(SimSceneTest, AFrameTellsOfAllItsSteps) {
     EXPECT_EQ(scene.frame.unbalanced, unbalanced);
     EXPECT_GT(unbalanced, 0U);
   }
+}
+
+/// A cable that is held at one end cannot follow the other one four times its length: a prediction
+/// says so, when it begins, and once. What it can follow has no warning.
+TEST_F(SimSceneTest, PredictionsWarnOfWhatTears) {
+  const std::string text =
+      scene_text(line, "[gravity, stretch, bend, damping, {attachment: [{fiber: cable}]}]");
+  const SimScene start = read(text);
+  const Vector3d first = start.stepper->rods().positions.front();
+  const Vector3d last = start.stepper->rods().positions.back();
+  const auto warnings = [&](double part) {
+    SimScene scene = read(text);
+    const auto node = static_cast<std::uint32_t>(scene.stepper->rods().node_count(0) - 1);
+    const Placement there{first + part * (last - first), Vector3d::UnitX(), Vector3d::UnitY()};
+    follow(scene, {HoldTrajectory{0, node, {{1.0, there}}}});
+    PredictionOptions options;
+    options.duration = 1.0;
+    return predict(scene, options).warnings;
+  };
+  EXPECT_TRUE(warnings(0.9).empty());
+  const std::vector<PredictedWarning> torn = warnings(4.0);
+  ASSERT_EQ(torn.size(), 1U);
+  EXPECT_NE(torn[0].text.find(" N, its greatest force (max_force), and the node is "),
+            std::string::npos)
+      << torn[0].text;
+  // A tenth of its length is gone then.
+  EXPECT_GT(torn[0].time, 0.02);
+  EXPECT_LT(torn[0].time, 0.2);
 }
 
 TEST_F(SimSceneTest, TrialsAreOnCopies) {

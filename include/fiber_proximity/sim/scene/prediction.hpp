@@ -60,6 +60,13 @@ struct GreatestForce {
   double time = 0.0;       ///< [s] from now
 };
 
+/// A problem of a frame: a fibre that is stretched too far, what is held or moves and lags behind,
+/// or forces that do not balance.
+struct PredictedWarning {
+  std::string text;
+  double time = 0.0;  ///< [s] from now: of the first frame with a problem of the kind
+};
+
 /// Where fibres will be, and what happens on the way.
 struct Prediction {
   /// Where the nodes are at a time.
@@ -73,6 +80,7 @@ struct Prediction {
   std::vector<GreatestForce> tensions;         ///< by rod
   std::vector<GreatestForce> holds;            ///< by hold
   std::vector<GreatestForce> joints;           ///< by node that is joined
+  std::vector<PredictedWarning> warnings;      ///< the first of each kind
   double time = 0.0;                           ///< [s] how far it came
   std::uint32_t unbalanced_frames = 0;         ///< in which a step ended before forces balanced
 
