@@ -120,7 +120,12 @@ SimHold read_hold(const YamlField& entry, std::uint32_t rod, const Rods& rods) {
   hold.place = entry.place();
   hold.rod = rod;
   hold.node = read_node(entry.find("node"), rods.given_node_count(rod));
-  hold.is_clamp = read_choice(entry.find("kind"), "pin", "clamp");
+  const auto kind = entry.find("kind");
+  hold.is_clamp = read_choice(kind, "pin", "clamp");
+  const bool is_at_end = hold.node == 0 || hold.node + 1 == rods.given_node_count(rod);
+  if (hold.is_clamp && (!is_at_end || rods.is_closed(rod))) {
+    kind->refuse("pin, or node must be an end of a fibre that is not closed");
+  }
   const auto path = entry.find("path");
   const auto period = entry.find("period");
   const auto frame = entry.find("frame");

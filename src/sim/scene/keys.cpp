@@ -74,7 +74,8 @@ std::vector<SceneMap> fiber_maps() {
                   "in place of `velocity`: of points at equal distances along the fibre from its "
                   "first end to its last, in between straight lines"),
         other_key("angular_velocity", three_numbers, "[0, 0, 0]", "rad/s",
-                  "about its centre of mass, to begin with; added to the above"),
+                  "about its own centre of mass, without that of loads, to begin with; added to "
+                  "the above"),
         other_key("sections", "a list of parts of its length", "", "",
                   "that have materials or radii of their own, or are rigid; see below")}},
       {"section",

@@ -56,11 +56,11 @@ SectionEntry read_section(const YamlField& entry, const FiberBody& body) {
   section.is_rigid = rigid && rigid->flag();
   const bool has_other = section.radius || section.is_rigid;
   const auto given = has_other ? entry.find("material") : std::make_optional(entry.get("material"));
+  std::string inherited;
+  const RodMaterial material =
+      given ? read_material(*given, body.material, inherited) : body.material;
   section.section = with_context(given ? given->place() : section.place, [&] {
-    std::string inherited;
-    return solid_round_section(
-        given ? read_material(*given, body.material, inherited) : body.material,
-        section.radius.value_or(body.radius));
+    return solid_round_section(material, section.radius.value_or(body.radius));
   });
   return section;
 }
@@ -82,7 +82,7 @@ double share_of(const FiberEntry& fiber, double length) {
 }
 
 void require_straight(const FiberEntry& fiber, const SectionEntry& section) {
-  constexpr double least = 0.999;  // an arc of 9 degrees
+  constexpr double most = 9.0;  // [degree]
   const double from = share_of(fiber, section.part.from);
   const double to = share_of(fiber, section.part.to);
   const auto point_at = [&](double share) -> Eigen::Vector3d {
@@ -90,12 +90,14 @@ void require_straight(const FiberEntry& fiber, const SectionEntry& section) {
            : share == 1.0 ? fiber.curve.back()
                           : cut_curve(fiber.curve, 2, {{share, 1}})[1];
   };
-  const double straight = (point_at(to) - point_at(from)).norm();
+  // An arc of an angle x has a chord of sin(x / 2) / (x / 2) = 1 - x² / 24 + ... of its length.
+  const double chord = (point_at(to) - point_at(from)).norm();
   const double length = section.part.to - section.part.from;
-  if (!(straight >= least * length)) {
-    throw std::invalid_argument(format(section.place, " is rigid and ", length,
-                                       " m long, but its ends are ", straight,
-                                       " m apart: the fibre's shape must be straight there"));
+  const double angle = std::sqrt(24.0 * std::max(0.0, 1.0 - chord / length)) * 180.0 / M_PI;
+  if (!(angle <= most)) {
+    throw std::invalid_argument(format(section.place, " is rigid, but the fibre's shape is bent ",
+                                       "there, as an arc of ", angle, " degrees, at most ", most,
+                                       " are allowed"));
   }
 }
 

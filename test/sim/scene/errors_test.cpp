@@ -53,7 +53,7 @@ TEST_F(SimSceneTest, ErrorsNameLineAndWhatIsAllowed) {
        "fiber is rope, it must be the name of a fibre of the scene: cable"},
       {scene_text(line, held + "{fiber: cable, node: 5}]}]"), "node is 5, it must be"},
       {scene_text(line, held + "{fiber: cable, node: 2, kind: clamp}]}]"),
-       "a clamp must be at an end of the rod"},
+       "kind is clamp, it must be pin, or node must be an end of a fibre that is not closed"},
       {scene_text(line, held + "{fiber: cable}, {fiber: cable, node: first}]}]"),
        "effects[1].attachment[1] holds node 0, which is held already: "},
       {scene_text(line, held + "{fiber: cable, path: [{time: 0}, {time: 0}]}]}]"),
