@@ -3,6 +3,7 @@
 add_library(fiber_proximity_sim SHARED
   src/sim/contact/contact_neighbours.cpp
   src/sim/contact/contact_set.cpp
+  src/sim/contact/contact_derivatives.cpp
   src/sim/contact/contact_set_forces.cpp
   src/sim/contact/contact_set_motion.cpp
   src/sim/contact/friction_anchors.cpp
@@ -83,6 +84,7 @@ add_library(sim_scene OBJECT
   src/sim/scene/real_time.cpp
   src/sim/scene/report.cpp
   src/sim/scene/resolution.cpp
+  src/sim/scene/rope_net.cpp
   src/sim/scene/scene.cpp
   src/sim/scene/sections.cpp
   src/sim/scene/shapes.cpp

@@ -89,6 +89,84 @@ TEST(Barrier, WithLessWeightItBeginsNearerAndNeverLetsNearerThanTheLeastDistance
   EXPECT_NEAR(barrier.effective(barrier.min_distance(), 0.0), barrier.inner, 1e-15);
 }
 
+/// The energy of an edge of some weight, by its distance and those of its ends.
+WeightedSlopes<2> weighted_slopes(const Barrier& barrier, const Eigen::Vector3d& distances,
+                                  double& energy) {
+  std::array<Smoothstep, 2> steps{Smoothstep(1.0), Smoothstep(1.0)};
+  double weight = 1.0;
+  for (int end = 0; end < 2; ++end) {
+    steps[end] = Smoothstep((distances[end + 1] - distances[0]) / barrier.width());
+    weight *= steps[end].value;
+  }
+  const WeightedBarrier weighted(barrier, distances[0], weight);
+  energy = weighted.energy();
+  return weighted.slopes(steps, {1.0, 1.0});
+}
+
+TEST(WeightedBarrier, HasTheDerivativesOfItsEnergyByAllDistances) {
+  SCOPED_TRACE(seed_message());
+  Random random(3);
+  for (int round = 0; round < 1000; ++round) {
+    const Barrier barrier = random_barrier(random);
+    const double width = barrier.width();
+    Eigen::Vector3d distances = Eigen::Vector3d::Constant(barrier.inner);
+    distances[0] += random.uniform(0.1, 0.95) * width;
+    for (int end = 0; end < 2; ++end) {
+      distances[end + 1] = distances[0] + random.uniform(0.05, 1.2) * width;
+    }
+    double energy = 0.0;
+    const WeightedSlopes<2> found = weighted_slopes(barrier, distances, energy);
+    for (int i = 0; i < 3; ++i) {
+      const double step = 1e-6 * width;
+      std::array<WeightedSlopes<2>, 2> beside;
+      std::array<double, 2> energies{};
+      for (int side = 0; side < 2; ++side) {
+        Eigen::Vector3d there = distances;
+        there[i] += (side == 0 ? -step : step);
+        beside[side] = weighted_slopes(barrier, there, energies[side]);
+      }
+      const double largest = found.gradient.cwiseAbs().maxCoeff();
+      EXPECT_NEAR(found.gradient[i], (energies[1] - energies[0]) / (2.0 * step), 1e-5 * largest);
+      const Eigen::Vector3d column = (beside[1].gradient - beside[0].gradient) / (2.0 * step);
+      EXPECT_LT((found.hessian.col(i) - column).norm(), 1e-4 * found.hessian.norm());
+    }
+    EXPECT_LT((found.hessian - found.hessian.transpose()).norm(), 1e-12 * found.hessian.norm());
+  }
+}
+
+/// What is coupled adds up to the positive part: none of it is negative, and nothing positive is
+/// missing.
+TEST(DistanceTerms, AreCoupledByThePositivePart) {
+  SCOPED_TRACE(seed_message());
+  Random random(4);
+  for (int round = 0; round < 100; ++round) {
+    Eigen::Matrix3d square;
+    for (int i = 0; i < 3; ++i) {
+      square.col(i) = random.in_cube();
+    }
+    const Eigen::Matrix3d hessian = square + square.transpose();
+    const DistanceTerm none{0.0, 0.0, Eigen::Vector3d::UnitZ(), 0.0, 0.0, 0.0};
+    DistanceTerms terms;
+    terms.push_back(none);
+    terms.couple(hessian);
+    for (int i = 0; i < 3; ++i) {
+      terms.push_back(none);
+    }
+    Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+    terms.for_each_coupling([&](const DistanceTerms::Parts& parts) {
+      const Eigen::Vector3d g(parts[0], parts[1], parts[2]);
+      sum += g * g.transpose();
+    });
+    const Eigen::Vector3d left =
+        Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(sum - hessian).eigenvalues();
+    EXPECT_GT(left.minCoeff(), -1e-12) << "nothing positive is missing";
+    EXPECT_LT((sum * (sum - hessian)).norm(), 1e-12) << "and nothing is added to it";
+    EXPECT_FALSE(terms.is_coupled(*terms.begin()));
+    EXPECT_TRUE(terms.is_coupled(*(terms.begin() + 1)));
+    EXPECT_TRUE(terms.is_coupled(*(terms.begin() + 3)));
+  }
+}
+
 TEST(Barrier, AHeavyLoadLeavesRoomToSolveIn) {
   const Barrier barrier = Barrier::around(0.02, 100.0);
   const double touching = -barrier.slope(0.02);

@@ -54,8 +54,10 @@ Effects effects_of(const ExtraScene& scene) {
 /// So stiff that no contact has more to hold than it does well: otherwise the solver makes them
 /// stiffer.
 /// @param begin where their time is 0 [s]
+constexpr double friction = 0.4;  // coefficient
+
 std::unique_ptr<Contacts> stiff_contacts(const ExtraScene& scene, double begin) {
-  return scene.contacts(2e4, 0.4, begin);
+  return scene.contacts(2e4, friction, begin);
 }
 
 /// The gradient of contacts and of friction after a step, node by node [N].
@@ -186,14 +188,32 @@ std::vector<double> residuals(const ExtraScene& scene, const Rods& before, const
   return left;
 }
 
+/// By how much friction may change the speed of each node in a step beyond the residual: it may be
+/// off by 2 % of what it is where all of a contact slides [m/s].
+std::vector<double> left_by_friction(const Stepper& stepper) {
+  constexpr double most_off = 0.02;
+  const Rods& rods = stepper.rods();
+  std::vector<double> left(rods.positions.size(), 0.0);
+  for (const RodForces::ContactForce& contact : stepper.forces().contacts) {
+    const auto add = [&](std::uint32_t rod, std::uint32_t edge) {
+      for (const std::uint32_t node : {rods.first(rod) + edge, rods.first(rod) + edge + 1}) {
+        left[node] +=
+            most_off * friction * contact.normal_force.norm() * balance_step / rods.masses[node];
+      }
+    };
+    add(contact.rod, contact.edge);
+    if (contact.other_rod != RodForces::ContactForce::obstacle) {
+      add(contact.other_rod, contact.other_edge);
+    }
+  }
+  return left;
+}
+
 class Residual : public testing::TestWithParam<Extra> {};
 
 TEST_P(Residual, IsWhatIsLeftOfEachNodesEquation) {
   SCOPED_TRACE(seed_message());
   Random random(1);
-  // Friction is that of normal forces which are up to 2 % off. Where sections turn, it is among the
-  // largest forces, as little resists that.
-  const double by_friction = GetParam() == Extra::STRIPS ? 1.0 : 0.01;
   for (const double residual : {1e-3, 1e-6}) {
     const ExtraScene scene(scene_of(random), GetParam(), 0.08);
     const Rods& rods = scene.rods();
@@ -216,7 +236,9 @@ TEST_P(Residual, IsWhatIsLeftOfEachNodesEquation) {
       const std::vector<double> left = residuals(scene, before, stepper->rods(), time, anchors);
       time += balance_step;
       const StepReport& report = stepper->report();
-      if (report.unbalanced > 0) {
+      // Slips are kept by the energy that friction has in them: by what that is off adds up.
+      constexpr int most_steps = 10;
+      if (report.unbalanced > 0 || i % most_steps == 0) {
         // Friction was that of the forces before the last iteration, which nobody tells.
         stepper = go_on(stepper->rods(), time);
         anchors = FrictionAnchors();
@@ -228,8 +250,9 @@ TEST_P(Residual, IsWhatIsLeftOfEachNodesEquation) {
       }
       ++balanced;
       contacts = std::max(contacts, stepper->forces().contacts.size());
+      const std::vector<double> by_friction = left_by_friction(*stepper);
       for (std::size_t node = 0; node < left.size(); ++node) {
-        ASSERT_LE(left[node], (1.0 + by_friction) * residual + 1e-9)
+        ASSERT_LE(left[node], residual + by_friction[node] + 1e-9)
             << "step " << i << ", node " << node;
         const Vector3d slip = stepper->rods().velocities[node] - scene.table_velocity();
         still += slip.norm() <= creep ? 1 : 0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <string>
 
 #include "fiber_proximity/sim/joints.hpp"
@@ -145,14 +146,22 @@ double ratio_of_tensions(const Capstan& capstan, double friction, bool turns_pos
   Stepper stepper(rods, std::move(all), StepperOptions{}, contacts_with_post(turn_rate, friction));
   double before = 0.0;
   double beyond = 0.0;
+  std::uint32_t unbalanced = 0;
   constexpr int edges_before = 3;  // until all of it slides
-  for (int i = 0; i < (edges_before + 1) * steps_per_edge; ++i) {
+  constexpr int steps = (edges_before + 1) * steps_per_edge;
+  for (int i = 0; i < steps; ++i) {
     stepper.step(step_length);
+    unbalanced += stepper.report().unbalanced;
     if (i >= edges_before * steps_per_edge) {
       const RodForces forces = stepper.forces();
       before += forces.tensions[1];
       beyond += forces.tensions[last - 2];
     }
+  }
+  constexpr std::uint32_t most_unbalanced = steps / 20;
+  if (unbalanced > most_unbalanced) {
+    throw std::runtime_error(std::to_string(unbalanced) + " of " + std::to_string(steps) +
+                             " steps ended before forces balanced");
   }
   return beyond / before;
 }

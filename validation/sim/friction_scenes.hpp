@@ -46,6 +46,7 @@ struct Capstan {
 
 /// Ratio of the tensions beyond and before a post over which a rope is drawn, on the mean of the
 /// time in which it moves by an edge.
+/// @throws std::runtime_error if more than a twentieth of the steps end short of balance
 double tension_ratio(const Capstan& capstan, double friction);
 
 /// The same where the rope is held and the post turns under it, as a drum does under a belt.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cassert>
@@ -103,20 +104,23 @@ struct Barrier {
 struct Smoothstep {
   explicit Smoothstep(double x)
       : value(x >= 1.0 ? 1.0 : x * x * (3.0 - 2.0 * x)),
-        slope(x >= 1.0 ? 0.0 : 6.0 * x * (1.0 - x)) {}
+        slope(x >= 1.0 ? 0.0 : 6.0 * x * (1.0 - x)),
+        curvature(x >= 1.0 ? 0.0 : 6.0 - 12.0 * x) {}
   double value;
   double slope;
+  double curvature;
 };
 
-/// Derivatives of a WeightedBarrier by the edge's distance and, as they change the weight, by those
-/// of its ends.
+/// Derivatives of a WeightedBarrier by distances: that of the edge, and then those of its ends,
+/// which change the weight.
 template <std::size_t ends>
 struct WeightedSlopes {
-  double slope = 0.0;      ///< [N]
-  double curvature = 0.0;  ///< a positive part [N/m]
-  double pressure = 0.0;   ///< see DistanceTerm [N]
-  std::array<double, ends> end_slopes{};
-  std::array<double, ends> end_curvatures{};
+  using Vector = Eigen::Matrix<double, ends + 1, 1>;
+  using Square = Eigen::Matrix<double, ends + 1, ends + 1>;
+
+  Vector gradient = Vector::Zero();  ///< [N]
+  Square hessian = Square::Zero();   ///< not definite where the weight changes [N/m]
+  double pressure = 0.0;             ///< see DistanceTerm [N]
 };
 
 /// The barrier of an edge that has only a part of its weight, as its ends have barriers of their
@@ -140,36 +144,50 @@ class WeightedBarrier {
   template <std::size_t ends>
   WeightedSlopes<ends> slopes(const std::array<Smoothstep, ends>& steps,
                               const std::array<double, ends>& cosines) const {
-    const double first_slope = weight_ * barrier_.slope(effective_);
-    const double second_slope = weight_ * barrier_.curvature(effective_);
+    using Vector = typename WeightedSlopes<ends>::Vector;
+    using Square = typename WeightedSlopes<ends>::Square;
+    const double slope = barrier_.slope(effective_);
     const double depth_share = Barrier::depth_share(weight_);
-    const double by_weight =
-        energy_ - first_slope * Barrier::max_relief * (barrier_.outer - distance_);
     WeightedSlopes<ends> found;
-    found.slope = first_slope * depth_share;
-    found.pressure = -found.slope;
-    // Derivatives of the effective distance by the weight, and so by the distances of the ends.
-    const double relief = Barrier::max_relief * (barrier_.outer - distance_);
-    std::array<double, ends> effective_by_end{};
-    double effective_by_ends = 0.0;
+    found.gradient[0] = weight_ * slope * depth_share;
+    found.hessian(0, 0) = weight_ * barrier_.curvature(effective_) * depth_share * depth_share;
+    found.pressure = -found.gradient[0];
+    if (std::all_of(steps.begin(), steps.end(),
+                    [](const auto& step) { return step.slope == 0.0; })) {
+      return found;
+    }
+    // The weight by how much further the ends are, and so by distances.
+    Vector weight_by = Vector::Zero();
+    Square weight_by_two = Square::Zero();
     for (std::size_t end = 0; end < ends; ++end) {
-      if (steps[end].slope > 0.0) {
-        const double weight_by_end =
-            weight_ / steps[end].value * steps[end].slope / barrier_.width();
-        effective_by_end[end] = relief * weight_by_end;
-        effective_by_ends += effective_by_end[end];
-        found.end_slopes[end] = by_weight * weight_by_end;
-        found.slope -= found.end_slopes[end];
-        // The force that moves to an end acts along the end's normal, not the edge's.
-        found.pressure += found.end_slopes[end] * (1.0 - cosines[end]);
+      const auto row = static_cast<Eigen::Index>(end + 1);
+      weight_by[row] = weight_ / steps[end].value * steps[end].slope / barrier_.width();
+      weight_by_two(row, row) =
+          weight_ / steps[end].value * steps[end].curvature / (barrier_.width() * barrier_.width());
+      for (Eigen::Index column = 1; column < row; ++column) {
+        weight_by_two(row, column) = weight_by_two(column, row) =
+            weight_by[row] * weight_by[column] / weight_;
       }
     }
-    // This sum of squares bounds the square of the sum, so that the Hessian stays semidefinite.
-    const double by_distance = depth_share + effective_by_ends;
-    const double all = by_distance + effective_by_ends;
-    found.curvature = second_slope * by_distance * all;
+    weight_by[0] = -weight_by.sum();
+    weight_by_two.col(0) = -weight_by_two.rowwise().sum();
+    weight_by_two.row(0) = -weight_by_two.colwise().sum();
+    // The effective distance by distances.
+    const double relief = Barrier::max_relief * (barrier_.outer - distance_);
+    Vector effective_by = -relief * weight_by;
+    effective_by[0] += depth_share;
+    Square effective_by_two = -relief * weight_by_two;
+    effective_by_two.col(0) += Barrier::max_relief * weight_by;
+    effective_by_two.row(0) += Barrier::max_relief * weight_by.transpose();
+
+    found.gradient = energy_ * weight_by + weight_ * slope * effective_by;
+    found.hessian =
+        weight_ * barrier_.curvature(effective_) * effective_by * effective_by.transpose() +
+        slope * (weight_by * effective_by.transpose() + effective_by * weight_by.transpose()) +
+        weight_ * slope * effective_by_two + energy_ * weight_by_two;
     for (std::size_t end = 0; end < ends; ++end) {
-      found.end_curvatures[end] = second_slope * effective_by_end[end] * all;
+      // The force that moves to an end acts along the end's normal, not the edge's.
+      found.pressure += found.gradient[static_cast<Eigen::Index>(end + 1)] * (1.0 - cosines[end]);
     }
     return found;
   }

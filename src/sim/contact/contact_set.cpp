@@ -39,31 +39,8 @@ void ContactSet::clear() {
   frictions_.clear();
   impacts_.clear();
   has_motion_ = false;
-  for (std::vector<ContactTerm>& terms : terms_) {
-    terms.clear();
-  }
-}
-
-/// Calls function(points, term) for each term of a contact's energy.
-/// @param found buffer for the terms
-template <class Function>
-void ContactSet::for_each_term(const Rods& rods, std::size_t index, DistanceTerms& found,
-                               const Function& function) const {
-  found.clear();
-  if (index < obstacle_contacts.size()) {
-    const ObstacleContact& contact = obstacle_contacts[index];
-    obstacle_contact(contact, obstacle_distances_[index], &found);
-    for (const DistanceTerm& term : found) {
-      function(ContactPoints{contact.rod, contact.edge, term.s, contact.piece.object(),
-                             ContactPoints::no_edge, 0.0},
-               term);
-    }
-    return;
-  }
-  const EdgePair& pair = pairs[index - obstacle_contacts.size()];
-  edge_contact(pair, rods.positions, distances_[index - obstacle_contacts.size()], &found);
-  for (const DistanceTerm& term : found) {
-    function(ContactPoints{pair.rod_a, pair.edge_a, term.s, pair.rod_b, pair.edge_b, term.t}, term);
+  for (ContactDerivatives& derivatives : terms_) {
+    derivatives.clear();
   }
 }
 
@@ -293,35 +270,9 @@ double ContactSet::stored_energy() const {
   return std::accumulate(energies_.begin(), end, 0.0);
 }
 
-void ContactSet::find_terms(const Rods& rods, std::size_t contact, DistanceTerms& found,
-                            std::vector<ContactTerm>& terms) const {
-  const auto add = [&](const ContactPoints& points, const DistanceTerm& term) {
-    terms.push_back({points, term.slope * term.normal,
-                     (term.curvature - term.across) * term.normal * term.normal.transpose() +
-                         term.across * Matrix3d::Identity(),
-                     term.turning > 0.0 ? term.turning / (term.slope * term.slope) : 0.0, nullptr});
-  };
-  if (contact < distance_count()) {
-    for_each_term(rods, contact, found, add);
-    return;
-  }
-  const FrictionPoint& point = frictions_[contact - distance_count()];
-  const Vector3d slip = point.slip(rods);
-  const double length = slip.norm();
-  const Friction::Law law = Friction::law(length, stick_length_);
-  Matrix3d hessian =
-      law.resistance * (Matrix3d::Identity() - point.normal * point.normal.transpose());
-  if (length > 0.0) {
-    const Vector3d along = slip / length;
-    hessian += (law.curvature - law.resistance) * along * along.transpose();
-  }
-  terms.push_back({point.points, point.max_force * law.resistance * slip, point.max_force * hessian,
-                   0.0, point.levers ? &*point.levers : nullptr});
-}
-
 void ContactSet::find_derivatives(const Rods& rods) {
   terms_.resize(std::max(terms_.size(), chunk_count(contact_count())));
-  std::for_each(terms_.begin(), terms_.end(), [](auto& terms) { terms.clear(); });
+  std::for_each(terms_.begin(), terms_.end(), [](auto& derivatives) { derivatives.clear(); });
   for_each_chunk(contact_count(), [&](std::size_t index, std::size_t begin, std::size_t end) {
     DistanceTerms found;
     for (std::size_t i = begin; i < end; ++i) {

@@ -204,13 +204,15 @@ class ContactSet {
   void for_each_term_of_motion(const Rods& rods, const Function& function) const;
   template <class Function>
   void for_each_obstacle_force(const Rods& rods, const Function& function) const;
+  /// Calls function(points, term) for each term of a contact's energy.
+  /// @param found buffer for the terms
   template <class Function>
   void for_each_term(const Rods& rods, std::size_t index, DistanceTerms& found,
                      const Function& function) const;
   double energy_of(const Rods& rods, std::size_t contact) const;
   void evaluate_energies(const Rods& rods, std::size_t first);
   void find_terms(const Rods& rods, std::size_t contact, DistanceTerms& found,
-                  std::vector<ContactTerm>& terms) const;
+                  ContactDerivatives& derivatives) const;
   std::pair<std::uint32_t, std::uint32_t> rods_of(std::size_t contact) const;
   std::size_t distance_count() const { return obstacle_contacts.size() + pairs.size(); }
   std::size_t contact_count() const { return distance_count() + frictions_.size(); }
@@ -232,5 +234,26 @@ class ContactSet {
   std::vector<double> energies_;                      // by contact [J]
   std::vector<std::vector<FrictionPoint>> by_chunk_;  // buffer of add_friction()
 };
+
+template <class Function>
+void ContactSet::for_each_term(const Rods& rods, std::size_t index, DistanceTerms& found,
+                               const Function& function) const {
+  found.clear();
+  if (index < obstacle_contacts.size()) {
+    const ObstacleContact& contact = obstacle_contacts[index];
+    obstacle_contact(contact, obstacle_distances_[index], &found);
+    for (const DistanceTerm& term : found) {
+      function(ContactPoints{contact.rod, contact.edge, term.s, contact.piece.object(),
+                             ContactPoints::no_edge, 0.0},
+               term);
+    }
+    return;
+  }
+  const EdgePair& pair = pairs[index - obstacle_contacts.size()];
+  edge_contact(pair, rods.positions, distances_[index - obstacle_contacts.size()], &found);
+  for (const DistanceTerm& term : found) {
+    function(ContactPoints{pair.rod_a, pair.edge_a, term.s, pair.rod_b, pair.edge_b, term.t}, term);
+  }
+}
 
 }  // namespace fiber

@@ -32,7 +32,7 @@ void ContactSet::for_each_term_of_motion(const Rods& rods, const Function& funct
 void ContactSet::add_terms_of_motion(const Rods& rods) {
   for_each_term_of_motion(
       rods, [&](const ContactPoints& points, const DistanceTerm& term, double approach) {
-        terms_[0].push_back(
+        terms_[0].terms.push_back(
             {points, -term.curvature * approach * term.normal, Matrix3d::Zero(), 0.0, nullptr});
       });
 }

@@ -1,5 +1,4 @@
-// The part that contacts have in a step of Newton's method: in its equations, and in how far it
-// goes.
+// How far contacts let a step of Newton's method go, and which impacts it ends with.
 
 #include <algorithm>
 
@@ -10,8 +9,6 @@
 
 namespace fiber {
 
-using Eigen::Matrix3d;
-using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 namespace {
@@ -25,46 +22,6 @@ constexpr double tolerance = 0.1;
 double squared_approach(const Vector3d* a, const Vector3d* b) {
   return std::max(std::max((a[0] - b[0]).squaredNorm(), (a[0] - b[1]).squaredNorm()),
                   std::max((a[1] - b[0]).squaredNorm(), (a[1] - b[1]).squaredNorm()));
-}
-
-/// Adds one side of a term to the rod it is on.
-/// @param edge  of the rod
-/// @param lever from the axis to the point
-void add_side(std::uint32_t edge, double parameter, const SurfaceLever& lever,
-              const Vector3d& gradient, const Matrix3d& hessian, RodSystem& system) {
-  const SurfaceLever::Jacobian jacobian = lever.jacobian(parameter);
-  const Eigen::Matrix<double, SurfaceLever::unknowns, 1> by_all = jacobian.transpose() * gradient;
-  system.add_gradient(edge, by_all.head<3>());
-  system.add_angle_gradient(edge, by_all[3]);
-  system.add_gradient(edge + 1, by_all.tail<3>());
-  const Eigen::Matrix<double, SurfaceLever::unknowns, SurfaceLever::unknowns> block =
-      jacobian.transpose() * hessian * jacobian;
-  const std::size_t first = std::size_t{edge} * system.unknowns();
-  for (int c = 0; c < SurfaceLever::unknowns; ++c) {
-    for (int r = c; r < SurfaceLever::unknowns; ++r) {
-      system.add_hessian_entry(first + r, first + c, block(r, c));
-    }
-  }
-}
-
-/// Adds one side of a term whose points are on the axes.
-/// @param node of the rod, where the edge begins
-void add_side(std::uint32_t node, double parameter, const Vector3d& gradient,
-              const Matrix3d& hessian, RodSystem& system) {
-  const Vector2d weights(1.0 - parameter, parameter);
-  system.add_gradient(node, weights[0] * gradient);
-  system.add_gradient(node + 1, weights[1] * gradient);
-  system.add_hessian(node, weights[0] * weights[0] * hessian);
-  system.add_hessian(node + 1, weights[1] * weights[1] * hessian);
-  system.add_hessian(node + 1, node, weights[0] * weights[1] * hessian);
-}
-
-/// Calls function(term) for all of them.
-template <class Function>
-void for_each_term(const ContactTerms& terms, const Function& function) {
-  for (const std::vector<ContactTerm>& some : terms) {
-    std::for_each(some.begin(), some.end(), function);
-  }
 }
 
 /// Shortens a share of a step so that an edge does not reach an obstacle. It need not be shortened
@@ -102,84 +59,6 @@ double bounded_share(const Rods& rods, const ObstacleEdge& edge,
 }
 
 }  // namespace
-
-void add_derivatives(const ContactTerms& terms, const Rods& rods,
-                     const std::vector<RodSystem*>& systems,
-                     const std::vector<std::uint32_t>& packs, std::uint32_t which) {
-  for_each_term(terms, [&](const ContactTerm& term) {
-    const ContactPoints& points = term.points;
-    if (packs[points.rod_a] == which) {
-      const std::uint32_t edge = points.edge_a - rods.first(points.rod_a);
-      RodSystem& system = *systems[points.rod_a];
-      if (term.levers == nullptr) {
-        add_side(edge, points.s, term.gradient, term.hessian, system);
-      } else {
-        add_side(edge, points.s, term.levers->front(), term.gradient, term.hessian, system);
-      }
-      if (term.turning > 0.0) {
-        system.add_edge(edge, Vector3d::Zero(),
-                        term.turning * term.gradient * term.gradient.transpose());
-      }
-    }
-    if (points.is_of_rods() && packs[points.rod_b] == which) {
-      const std::uint32_t edge = points.edge_b - rods.first(points.rod_b);
-      RodSystem& system = *systems[points.rod_b];
-      if (term.levers == nullptr) {
-        add_side(edge, points.t, -term.gradient, term.hessian, system);
-      } else {
-        add_side(edge, points.t, term.levers->back(), -term.gradient, term.hessian, system);
-      }
-    }
-  });
-}
-
-bool has_coupling(const ContactTerms& terms) {
-  return std::any_of(terms.begin(), terms.end(), [](const auto& some) {
-    return std::any_of(some.begin(), some.end(),
-                       [](const ContactTerm& term) { return term.points.is_of_rods(); });
-  });
-}
-
-void add_coupling(const ContactTerms& terms, const std::vector<std::size_t>& places,
-                  const SimdBatch* displacements, SimdBatch* product) {
-  using Stride = Eigen::InnerStride<lane_count>;
-  const auto displacement = [&](std::uint32_t node) {
-    return Eigen::Map<const Vector3d, 0, Stride>(displacements->lanes.data() + places[node]);
-  };
-  const auto combine = [&](std::uint32_t edge, double parameter) -> Vector3d {
-    return (1.0 - parameter) * displacement(edge) + parameter * displacement(edge + 1);
-  };
-  using Unknowns = Eigen::Matrix<double, SurfaceLever::unknowns, 1>;
-  const auto combine_at = [&](std::uint32_t edge, double parameter,
-                              const SurfaceLever& lever) -> Vector3d {
-    return lever.jacobian(parameter) *
-           Eigen::Map<const Unknowns, 0, Stride>(displacements->lanes.data() + places[edge]);
-  };
-  const auto spread_at = [&](std::uint32_t edge, double parameter, const SurfaceLever& lever,
-                             const Vector3d& v) {
-    Eigen::Map<Unknowns, 0, Stride>(product->lanes.data() + places[edge]) -=
-        lever.jacobian(parameter).transpose() * v;
-  };
-  const auto spread = [&](std::uint32_t edge, double parameter, const Vector3d& v) {
-    Eigen::Map<Vector3d, 0, Stride>(product->lanes.data() + places[edge]) -= (1.0 - parameter) * v;
-    Eigen::Map<Vector3d, 0, Stride>(product->lanes.data() + places[edge + 1]) -= parameter * v;
-  };
-  for_each_term(terms, [&](const ContactTerm& term) {
-    const ContactPoints& points = term.points;
-    if (points.is_of_rods() && term.levers != nullptr) {
-      const auto& [a, b] = *term.levers;
-      const Vector3d from_a = term.hessian * combine_at(points.edge_a, points.s, a);
-      const Vector3d from_b = term.hessian * combine_at(points.edge_b, points.t, b);
-      spread_at(points.edge_a, points.s, a, from_b);
-      spread_at(points.edge_b, points.t, b, from_a);
-    } else if (points.is_of_rods()) {
-      const Vector3d from_a = term.hessian * combine(points.edge_a, points.s);
-      const Vector3d from_b = term.hessian * combine(points.edge_b, points.t);
-      spread(points.edge_a, points.s, from_b);
-      spread(points.edge_b, points.t, from_a);
-    }
-  });
-}
 
 double ContactSet::restitution_of(std::size_t contact) const {
   return contact < obstacle_contacts.size() ? obstacle_contacts[contact].restitution

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -17,8 +18,26 @@ struct ContactTerm {
   const SurfaceLevers* levers;  ///< from the axes to the points; null where they are on the axes
 };
 
-/// Terms by chunk of contacts. Threads share the chunks.
-using ContactTerms = std::vector<std::vector<ContactTerm>>;
+/// A part g gᵀ of the contacts' Hessian: of contacts whose energy depends on several distances
+/// together.
+struct ContactCoupling {
+  ContactPoints points;                 ///< that of the first distance
+  std::array<Eigen::Vector3d, 2> of_a;  ///< g by the ends of a's edge
+  std::array<Eigen::Vector3d, 2> of_b;  ///< and by those of b's, zero for an obstacle
+};
+
+struct ContactDerivatives {
+  std::vector<ContactTerm> terms;
+  std::vector<ContactCoupling> couplings;
+
+  void clear() {
+    terms.clear();
+    couplings.clear();
+  }
+};
+
+/// Derivatives by chunk of contacts. Threads share the chunks.
+using ContactTerms = std::vector<ContactDerivatives>;
 
 /// Adds the gradient to some rods, and the blocks of the Hessian between nodes of one edge.
 /// @param systems  by rod

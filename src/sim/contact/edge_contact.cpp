@@ -2,10 +2,14 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 namespace fiber {
 
 using Eigen::Vector3d;
+using Eigen::Vector4d;
+using Vector5d = WeightedSlopes<4>::Vector;
+using Square5d = WeightedSlopes<4>::Square;
 
 namespace {
 
@@ -37,11 +41,32 @@ class EdgeContact {
   }
 
   double energy(DistanceTerms* terms) {
-    double energy = add_crossing(terms);
+    double energy = find_crossing(terms != nullptr);
     for (std::uint32_t end = 0; end < 4; ++end) {
       energy += add_node(end, terms);
-      if (terms != nullptr && slopes_[end] != 0.0) {
-        terms->push_back(term(end, ends_[end], slopes_[end], curvatures_[end], pressures_[end]));
+    }
+    if (terms == nullptr) {
+      return energy;
+    }
+    const bool is_weight_changing = crossing_ && crossing_->gradient.tail<4>() != Vector4d::Zero();
+    Vector5d curvatures = Vector5d::Zero();
+    curvatures.tail<4>() = curvatures_;
+    if (is_weight_changing) {
+      Square5d hessian = crossing_->hessian;
+      hessian.diagonal() += curvatures;
+      terms->couple(hessian);
+      curvatures = hessian.rowwise().sum();
+    } else if (crossing_) {
+      curvatures[0] = crossing_->hessian(0, 0);
+    }
+    if (crossing_) {
+      terms->push_back({nearest_.s, nearest_.t, -nearest_.delta / nearest_.distance,
+                        crossing_->gradient[0], curvatures[0], crossing_->pressure});
+      slopes_ += crossing_->gradient.tail<4>();
+    }
+    for (std::uint32_t end = 0; end < 4; ++end) {
+      if (is_weight_changing || slopes_[end] != 0.0) {
+        terms->push_back(term(end, ends_[end], slopes_[end], curvatures[end + 1], pressures_[end]));
       }
     }
     return energy;
@@ -67,8 +92,8 @@ class EdgeContact {
                                   curvature,        pressure, 0.0,     across};
   }
 
-  /// Adds the energy of the edges' distance, with its weight.
-  double add_crossing(DistanceTerms* terms) {
+  /// Finds the energy of the edges' distance, with its weight, and its derivatives if it is finite.
+  double find_crossing(bool has_derivatives) {
     const double distance = nearest_.distance;
     const auto is_inner = [](double parameter) { return parameter > 0.0 && parameter < 1.0; };
     if (!is_inner(nearest_.s) || !is_inner(nearest_.t)) {
@@ -87,7 +112,7 @@ class EdgeContact {
     }
     const WeightedBarrier weighted(barrier_, distance, weight);
     const double energy = weighted.energy();
-    if (terms == nullptr || !(energy < std::numeric_limits<double>::infinity())) {
+    if (!has_derivatives || !(energy < std::numeric_limits<double>::infinity())) {
       return energy;
     }
     const Vector3d normal = -nearest_.delta / distance;
@@ -96,12 +121,7 @@ class EdgeContact {
       const Vector3d end_normal = (end < 2 ? 1.0 : -1.0) / ends_[end].distance * ends_[end].delta;
       cosines[end] = end_normal.dot(normal);
     }
-    const WeightedSlopes<4> by = weighted.slopes(steps, cosines);
-    for (std::uint32_t end = 0; end < 4; ++end) {
-      slopes_[end] += by.end_slopes[end];
-      curvatures_[end] += by.end_curvatures[end];
-    }
-    terms->push_back({nearest_.s, nearest_.t, normal, by.slope, by.curvature, by.pressure});
+    crossing_ = weighted.slopes(steps, cosines);
     return energy;
   }
 
@@ -168,8 +188,9 @@ class EdgeContact {
   const std::vector<Vector3d>& x_;
   const SegmentDistance& nearest_;
   std::array<EndDistance, 4> ends_;
-  std::array<double, 4> slopes_{};
-  std::array<double, 4> curvatures_{};
+  std::optional<WeightedSlopes<4>> crossing_;
+  Vector4d slopes_ = Vector4d::Zero();  // of the ends
+  Vector4d curvatures_ = Vector4d::Zero();
   std::array<double, 4> pressures_{};
 };
 

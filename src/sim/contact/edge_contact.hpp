@@ -1,7 +1,11 @@
 #pragma once
 
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <array>
 #include <cassert>
+#include <cmath>
 #include <vector>
 
 #include "fiber_proximity/geometry/segment_distance.hpp"
@@ -66,7 +70,10 @@ struct DistanceTerm {
   double t;                ///< curve parameter on b
   Eigen::Vector3d normal;  ///< unit vector from b to a
   double slope;            ///< of the energy by the distance [N]
-  double curvature;        ///< a positive part of the second derivative [N/m]
+
+  /// A positive part of the second derivative; of a term that is coupled with others, that by all
+  /// their distances alike [N/m].
+  double curvature;
 
   /// The normal force, at least 0 [N]. It is not all of the slope: a part of that moves weight from
   /// one contact of two edges to another.
@@ -78,23 +85,97 @@ struct DistanceTerm {
 
   /// Stiffness against a displacement across the normal, where the two attract each other [N/m].
   double across = 0.0;
+
+  /// The part of another term's curvature, of the same distance, that the coupling has in it [N/m].
+  double borrowed = 0.0;
 };
 
 /// The terms of one contact: two edges have no more than that of their own distance and, for each
-/// end, that of its distance and those of two corners.
+/// end, that of its distance and those of two corners. The distance of the edges and those of the
+/// ends may be coupled.
 class DistanceTerms {
  public:
+  static constexpr int max_coupled = 5;
+  using Parts = std::array<double, max_coupled>;
+
   void push_back(const DistanceTerm& term) {
     assert(count_ < terms_.size());
     terms_[count_++] = term;
   }
-  void clear() { count_ = 0; }
+  void clear() {
+    count_ = 0;
+    coupled_count_ = 0;
+  }
   const DistanceTerm* begin() const { return terms_.data(); }
   const DistanceTerm* end() const { return terms_.data() + count_; }
 
+  /// Couples the next terms to be pushed, as many as rows: these are the second derivatives of the
+  /// energy by their distances together.
+  template <class Square>
+  void couple(const Square& hessian) {
+    first_coupled_ = count_;
+    coupled_count_ = static_cast<std::size_t>(hessian.rows());
+    hessian_.topLeftCorner<Square::RowsAtCompileTime, Square::RowsAtCompileTime>() = hessian;
+  }
+
+  bool is_coupled(const DistanceTerm& term) const {
+    const auto index = static_cast<std::size_t>(&term - terms_.data());
+    return index >= first_coupled_ && index < first_coupled_ + coupled_count_;
+  }
+
+  /// Calls function(parts) for vectors g whose sum of g gᵀ is the positive part of these second
+  /// derivatives: parts[i] is that of the term first_coupled() + i.
+  template <class Function>
+  void for_each_coupling(const Function& function) const {
+    std::array<Eigen::Index, max_coupled> rows{};  // those that are not zero
+    Eigen::Index count = 0;
+    for (std::size_t i = 0; i < coupled_count_; ++i) {
+      const auto row = static_cast<Eigen::Index>(i);
+      if (hessian_(row, row) != 0.0) {
+        rows[static_cast<std::size_t>(count++)] = row;
+      }
+    }
+    Square matrix(count, count);
+    for (Eigen::Index row = 0; row < count; ++row) {
+      for (Eigen::Index column = 0; column < count; ++column) {
+        matrix(row, column) =
+            hessian_(rows[static_cast<std::size_t>(row)], rows[static_cast<std::size_t>(column)]);
+      }
+    }
+    const Square root = root_of_positive_part(matrix);
+    for (Eigen::Index column = 0; column < count; ++column) {
+      Parts parts{};
+      for (Eigen::Index row = 0; row < count; ++row) {
+        parts[static_cast<std::size_t>(rows[static_cast<std::size_t>(row)])] = root(row, column);
+      }
+      if (root.col(column).squaredNorm() > 0.0) {
+        function(parts);
+      }
+    }
+  }
+  const DistanceTerm* first_coupled() const { return terms_.data() + first_coupled_; }
+  std::size_t coupled_count() const { return coupled_count_; }
+
  private:
+  using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, max_coupled, max_coupled>;
+
+  /// A matrix whose product with its own transpose is the positive part of a symmetric one.
+  static Square root_of_positive_part(const Square& matrix) {
+    // Of one that is positive already, in a tenth of the time of eigenvectors.
+    const Eigen::LLT<Square> cholesky(matrix);
+    if (cholesky.info() == Eigen::Success) {
+      return cholesky.matrixL();
+    }
+    const Eigen::SelfAdjointEigenSolver<Square> solver(matrix);
+    return solver.eigenvectors() *
+           solver.eigenvalues().cwiseMax(0.0).cwiseSqrt().eval().asDiagonal();
+  }
+
   std::array<DistanceTerm, 13> terms_;
   std::size_t count_ = 0;
+  Eigen::Matrix<double, max_coupled, max_coupled> hessian_;
+  std::size_t first_coupled_ = 0;
+  std::size_t coupled_count_ = 0;
 };
 
 /// The potential of two polylines near each other, edge by edge:

@@ -250,16 +250,31 @@ double obstacle_contact(const ObstacleContact& contact, const ObstacleDistance& 
     steps[end] = weight_factor(contact, distance, end);
     cosines[end] = distance.ends[end].gradient.dot(distance.nearest.gradient);
   }
-  const WeightedSlopes<2> by = weighted.slopes(steps, cosines);
-  for (std::size_t end = 0; end < 2; ++end) {
-    if (steps[end].slope > 0.0) {
-      terms->push_back({static_cast<double>(end), 0.0, distance.ends[end].gradient,
-                        by.end_slopes[end], by.end_curvatures[end], 0.0});
+  WeightedSlopes<2> by = weighted.slopes(steps, cosines);
+  // Where the weight falls, the edge is less stiff than nothing. Half of the stiffness of the
+  // contacts that the ends have makes up for it, as far as it goes: an end has two edges.
+  Vector3d borrowed = Vector3d::Zero();
+  for (std::size_t end = 0; is_edge && end < 2; ++end) {
+    const double of_end = distance.ends[end].distance;
+    if (of_end < barrier.outer && of_end > barrier.inner) {
+      borrowed[static_cast<Eigen::Index>(end + 1)] = 0.5 * barrier.curvature(of_end);
     }
   }
+  const bool is_weight_changing = steps[0].slope > 0.0 || steps[1].slope > 0.0;
+  Vector3d curvatures = by.hessian.diagonal();
+  if (is_weight_changing) {
+    curvatures = by.hessian.rowwise().sum();
+    by.hessian.diagonal() += borrowed;
+    terms->couple(by.hessian);
+  }
   const double at_node = contact.part == ObstacleContact::Part::LAST_NODE ? 1.0 : 0.0;
-  terms->push_back({is_edge ? distance.s : at_node, 0.0, distance.nearest.gradient, by.slope,
-                    by.curvature, by.pressure, turning_of(contact, distance, by.pressure)});
+  terms->push_back({is_edge ? distance.s : at_node, 0.0, distance.nearest.gradient, by.gradient[0],
+                    curvatures[0], by.pressure, turning_of(contact, distance, by.pressure)});
+  for (int end = 0; is_weight_changing && end < 2; ++end) {
+    terms->push_back({static_cast<double>(end), 0.0,
+                      distance.ends[static_cast<std::size_t>(end)].gradient, by.gradient[end + 1],
+                      curvatures[end + 1], 0.0, 0.0, 0.0, borrowed[end + 1]});
+  }
   return energy;
 }
 
