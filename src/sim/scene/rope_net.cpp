@@ -15,7 +15,7 @@ using Eigen::VectorXd;
 using Ends = std::vector<Vector3d>;
 
 /// What is below that part of the ropes' length counts as rounding.
-constexpr double rounding_share = 1e-9;
+constexpr double least_share = 1e-9;
 
 class Energy {
  public:
@@ -83,8 +83,8 @@ class Energy {
       work += stiffness_[i] * by * by;
       tension += stiffness_[i] * by;
     }
-    return work >
-           left_over * (total_length_ + box.diagonal().norm()) + rounding_share * total_length_ * tension;
+    return work > left_over * (total_length_ + box.diagonal().norm()) +
+                      least_share * total_length_ * tension;
   }
 
   /// Newton's step. What no rope pulls at stays where it is.
