@@ -127,6 +127,9 @@ class DistanceTerms {
   /// derivatives: parts[i] is that of the term first_coupled() + i.
   template <class Function>
   void for_each_coupling(const Function& function) const {
+    if (coupled_count_ == 0) {
+      return;
+    }
     std::array<Eigen::Index, max_coupled> rows{};  // those that are not zero
     Eigen::Index count = 0;
     for (std::size_t i = 0; i < coupled_count_; ++i) {

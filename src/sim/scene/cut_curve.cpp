@@ -4,6 +4,8 @@
 #include <cmath>
 #include <iterator>
 #include <stdexcept>
+#include <string>
+#include <utility>
 
 #include "src/sim/scene/parts.hpp"
 
@@ -45,6 +47,31 @@ Along along_rest(double share, const RigidShares& rigid) {
   return along;
 }
 
+NodesAt with_ends(NodesAt nodes, std::int64_t segments) {
+  nodes[0.0] = 0;
+  nodes[1.0] = static_cast<std::uint32_t>(segments);
+  return nodes;
+}
+
+/// Segments that are much shorter than the others are stiffer by that to the third power, and
+/// forces on them do not balance.
+void require_no_slivers(const NodesAt& ends, std::int64_t edges, const RigidShares& rigid) {
+  constexpr double least = 0.01;
+  const double mean = rest_of(rigid) / static_cast<double>(edges);
+  for (auto from = ends.begin(), to = std::next(from); to != ends.end(); from = to++) {
+    const bool is_rigid =
+        std::find(rigid.begin(), rigid.end(), std::pair(from->first, to->first)) != rigid.end();
+    const double part = (to->first - from->first) / (to->second - from->second) / mean;
+    if (!is_rigid && part < least) {
+      throw std::invalid_argument(
+          format("between ", std::to_string(from->first), " and ", std::to_string(to->first),
+                 " of its length, where it, "
+                 "joints or sections end, segments would have ",
+                 part, " of the length of others, at least ", least, " is allowed"));
+    }
+  }
+}
+
 }  // namespace
 
 NodesAt nodes_at(const std::vector<double>& shares, std::int64_t segments,
@@ -81,14 +108,15 @@ NodesAt nodes_at(const std::vector<double>& shares, std::int64_t segments,
     }
     nodes[share] = number;
   }
+  if (!nodes.empty()) {
+    require_no_slivers(with_ends(nodes, segments), edges, rigid);
+  }
   return nodes;
 }
 
 std::vector<Vector3d> cut_curve(const std::vector<Vector3d>& line, std::int64_t segments,
                                 const NodesAt& nodes) {
-  NodesAt ends = nodes;
-  ends[0.0] = 0;
-  ends[1.0] = static_cast<std::uint32_t>(segments);
+  const NodesAt ends = with_ends(nodes, segments);
   std::vector<double> lengths{0.0};
   for (std::size_t i = 1; i < line.size(); ++i) {
     lengths.push_back(lengths.back() + (line[i] - line[i - 1]).norm());

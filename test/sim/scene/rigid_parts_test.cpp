@@ -213,6 +213,14 @@ TEST_F(SimSceneTest, RigidPartsThatCannotBeAreErrors) {
       {"{from: 0.2, to: 0.21, radius: 0.02}",
        "2: fibers[0]: its 5 segment(s) are too few for a joint or the end of a section at 0.21 "
        "beside one at 0.2 of its length (fibre 'cable')"},
+      {"{to: 0.99999, radius: 0.02}",
+       "2: fibers[0]: between 0.999990 and 1.000000 of its length, where it, joints or sections "
+       "end, segments "
+       "would have 5e-05 of the length of others, at least 0.01 is allowed (fibre 'cable')"},
+      {"{from: 0.001, radius: 0.02}",
+       "2: fibers[0]: between 0.000000 and 0.001000 of its length, where it, joints or sections "
+       "end, segments "
+       "would have 0.005 of the length of others, at least 0.01 is allowed (fibre 'cable')"},
       {"{rigid: true}",
        "2: fibers[0]: its rigid sections leave 0 of its length to 4 of its 5 segments: each of "
        "them is one segment (fibre 'cable')"},
