@@ -83,7 +83,11 @@ TEST_F(SimPredictTest, WhatIsToldIsWhatComes) {
   EXPECT_EQ(touch->type_b, Contact::OBJECT);
   EXPECT_GT(touch->force, 0.0);
   ASSERT_EQ(told.clearances.size(), told.clearance_times.size());
-  EXPECT_TRUE(told.warnings.empty());
+  ASSERT_EQ(told.warnings.size(), 1U);
+  EXPECT_NE(told.warnings[0].find("of fibre 'heavy' pulls with 0.05 N, its greatest force"),
+            std::string::npos)
+      << told.warnings[0];
+  EXPECT_GT(told.warning_times.at(0), 0.0);
   ASSERT_EQ(told.tensions.size(), 3U);
   EXPECT_GT(told.tensions[1].force, 0.01);
 }

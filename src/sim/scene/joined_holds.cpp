@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <iomanip>
 #include <map>
 #include <set>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -192,14 +190,6 @@ std::string names_of(const Holds& holds, const SimDescription& scene, double tim
                    ")");
   }
   return text;
-}
-
-/// In more digits than other numbers of errors: it may be little more than what is allowed.
-std::string percent(double share) {
-  constexpr int digits = 5;
-  std::ostringstream text;
-  text << std::setprecision(digits) << 100.0 * share;
-  return text.str();
 }
 
 }  // namespace

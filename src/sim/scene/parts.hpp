@@ -24,6 +24,15 @@ std::string format(const Parts&... parts) {
   return text.str();
 }
 
+/// A share in per cent, with two more digits: it may be little more than what is allowed.
+inline std::string percent(double share) {
+  constexpr int digits = 5;
+  std::ostringstream text;
+  text.precision(digits);
+  text << 100.0 * share;
+  return text.str();
+}
+
 /// Runs a function, and appends the fibre's name to its errors.
 template <class Function>
 auto with_fiber_name(const std::string& name, const Function& function) {

@@ -182,7 +182,7 @@ void warn_of_strain(const SimScene& scene, std::vector<SimWarning>& warnings) {
   warnings.push_back({SimWarning::Kind::STRAIN,
                       format("edge ", largest.edge, " of fibre ",
                              quote(scene.fiber_names[largest.rod]), " is stretched by ",
-                             100.0 * largest.strain, " %, more than ", 100.0 * scene.max_strain,
+                             percent(largest.strain), " %, more than ", 100.0 * scene.max_strain,
                              " % (max_strain): what moves it goes too far or too fast")});
 }
 
