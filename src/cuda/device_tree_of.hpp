@@ -13,8 +13,7 @@ namespace fiber {
 
 /// What executors have, whose calls take effect in their order:
 ///
-/// - Turn, which makes the device that of the calling thread for as long as it lives: all others
-/// are
+/// - Turn, which makes the device that of the calling thread for as long as it lives: all else is
 ///   called within one
 /// - Buffer<T>, memory of the device, and HostBuffer<T>, that of the host which kernels write, too:
 ///   DeviceBuffer has what they can

@@ -254,13 +254,13 @@ double obstacle_contact(const ObstacleContact& contact, const ObstacleDistance& 
   // Where the weight falls, the edge is less stiff than nothing. Half of the stiffness of the
   // contacts that the ends have makes up for it, as far as it goes: an end has two edges.
   Vector3d borrowed = Vector3d::Zero();
-  for (std::size_t end = 0; is_edge && end < 2; ++end) {
+  const bool is_weight_changing = steps[0].slope > 0.0 || steps[1].slope > 0.0;
+  for (std::size_t end = 0; is_weight_changing && end < 2; ++end) {
     const double of_end = distance.ends[end].distance;
     if (of_end < barrier.outer && of_end > barrier.inner) {
       borrowed[static_cast<Eigen::Index>(end + 1)] = 0.5 * barrier.curvature(of_end);
     }
   }
-  const bool is_weight_changing = steps[0].slope > 0.0 || steps[1].slope > 0.0;
   Vector3d curvatures = by.hessian.diagonal();
   if (is_weight_changing) {
     curvatures = by.hessian.rowwise().sum();
