@@ -47,6 +47,9 @@ function(fiber_proximity_compile_tests_together)
   endforeach()
 endfunction()
 
+# Those that tests of all engines link.
+set(engine_libraries fiber_proximity_paper fiber_proximity_cuda)
+
 # fiber_proximity_gtest(NAME SOURCE... [THREADED] [COLD] [HEADERS NAME] [LIBRARIES LIB...])
 # A unit test that needs no ROS master: a catkin gtest in the package, a plain one without ROS, with
 # the label `threaded` if it is THREADED: if several threads at once are what it is about. A test is COLD if it
@@ -65,8 +68,7 @@ function(fiber_proximity_gtest name)
       add_dependencies(threaded_tests ${name})
     endif()
   endif()
-  target_link_libraries(${name}
-    fiber_proximity_paper fiber_proximity_scenes fiber_proximity_cuda fiber_proximity_options test_support ${ARG_LIBRARIES})
+  target_link_libraries(${name} fiber_proximity fiber_proximity_options test_support ${ARG_LIBRARIES})
   add_dependencies(unit_tests ${name})
   set_property(TARGET unit_tests APPEND PROPERTY PROGRAMS $<TARGET_FILE:${name}>)
   set(speed fast)

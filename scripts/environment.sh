@@ -57,6 +57,22 @@ run_tests() {
   $verbose || sed -n "/tests passed/,\$p" "$build/ctest.log"
 }
 
+# changed_since MARK [FILE...]: the sources that have changed since the commit that the file MARK names; `all` where
+# there is no telling, or where one of these files has changed.
+changed_since() {
+  local mark=$1 base changed
+  shift
+  base=$(cat "$root/$mark")
+  # Work may be taken up again as one commit, without those it was made of: that one is meant then.
+  git -C "$root" cat-file -e "$base^{commit}" 2>/dev/null || base=$(git -C "$root" log -1 --format=%H -- "$mark")
+  if { [ $# -eq 0 ] || git -C "$root" diff --quiet "$base" -- "$@" 2>/dev/null; } &&
+    changed=$("$root/scripts/changed_sources.py" "$base"); then
+    echo "$changed"
+  else
+    echo all
+  fi
+}
+
 # use_devel_space: what `source devel/setup.bash` in the build does, under set -u.
 use_devel_space() {
   set +u

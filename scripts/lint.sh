@@ -30,18 +30,8 @@ lint=$build/lint
 mkdir -p "$lint"
 sed -E 's/-Winvalid-pch//; s/-include [^ ]*cmake_pch\.hxx//' "$build/compile_commands.json" \
   >"$lint/compile_commands.json"
-# changed_files: those changed since the last full pass, `all` where there is no telling.
-changed_files() {
-  local base changed
-  base=$(cat .ci/linted)
-  # Work may be taken up again as one commit, without those it was made of: that one is meant then.
-  git cat-file -e "$base^{commit}" 2>/dev/null || base=$(git log -1 --format=%H -- .ci/linted)
-  if $all || ! git diff --quiet "$base" -- .clang-tidy 2>/dev/null || ! changed=$(scripts/changed_sources.py "$base"); then
-    echo all
-  else
-    echo "$changed"
-  fi
-}
+changed=all
+$all || changed=$(changed_since .ci/linted .clang-tidy)
 
 echo "clang-format: ${#sources[@]} files"
 clang-format --dry-run --Werror "${sources[@]}"
@@ -50,7 +40,7 @@ run_step "doxygen" "$lint/doxygen.log" doxygen docs/Doxyfile
 echo "catkin_lint"
 ROS_PACKAGE_PATH=$root:/usr/share catkin_lint --quiet --strict "$root" 2>&1 |
   { grep -v "rosdep database\|unknown dependencies" || true; }
-mapfile -t units < <(scripts/units_to_lint.py "$lint/compile_commands.json" src benchmark test validation <<<"$(changed_files)")
+mapfile -t units < <(scripts/units_to_lint.py "$lint/compile_commands.json" src benchmark test validation <<<"$changed")
 # The analyser does not go as deep as it could (mode=shallow): that takes a third of the time, and sanitizers and
 # fuzzers run through the same code.
 # tidy UNIT...: each numbered for the progress.

@@ -49,7 +49,7 @@ fiber_proximity_gtest(detector_test
   ros/uncertainty_test.cpp
   COLD
   HEADERS graph_test_headers
-  LIBRARIES fiber_proximity_ros
+  LIBRARIES fiber_proximity_paper fiber_proximity_ros
 )
 fiber_proximity_gtest(environment_inputs_test
   ros/cloud_cells_test.cpp

@@ -30,7 +30,7 @@ fiber_proximity_gtest(tools_test
   tools/tiny_fibers_test.cpp
   tools/topology_test.cpp
   COLD
-  LIBRARIES fiber_proximity_accuracy validation_geometry fiber_proximity_compare fiber_proximity_sim nlohmann_json::nlohmann_json
+  LIBRARIES ${engine_libraries} fiber_proximity_scenes fiber_proximity_accuracy validation_geometry fiber_proximity_compare fiber_proximity_sim nlohmann_json::nlohmann_json
 )
 add_dependencies(tools_test fiber_query fiber_scene fiber_simulate)
 target_compile_definitions(tools_test PRIVATE
