@@ -41,12 +41,18 @@ configure_package() {
     cmake -S "$root" -B "$build" "${tools[@]}" "${cmake_arguments[@]}"
 }
 
+# build_targets TARGET...: of what has been configured.
+build_targets() {
+  local what=$*
+  [ $# -le 3 ] || what="$# targets"
+  run_step "building $what" "$build/make.log" \
+    cmake --build "$build" --parallel "$(nproc)" --target "$@"
+}
+
 # build_package [TARGET...]: configures and builds.
 build_package() {
-  local targets=("${@:-all}")
   configure_package
-  run_step "building ${targets[*]}" "$build/make.log" \
-    cmake --build "$build" --parallel "$(nproc)" --target "${targets[@]}"
+  build_targets "${@:-all}"
 }
 
 # run_tests [ARGUMENT...]: ctest with these, in the build; of what passes only how many.

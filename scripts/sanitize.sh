@@ -4,7 +4,7 @@
 # works it has nothing to see.
 #   scripts/sanitize.sh [--changed] [--verbose]
 #     --changed   only tests that read what has changed since the commit in .ci/sanitized, at which all were
-#                 clean: half an hour less for most changes. .ci/run does it
+#                 clean. .ci/run does it
 set -euo pipefail
 # shellcheck source=scripts/environment.sh
 source "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
@@ -42,7 +42,7 @@ test_reached() {
     echo "$(basename "$build"): no test reads what has changed"
     return
   fi
-  build_package "${programs[@]}"
+  build_targets "${programs[@]}"
   run_tests "$@" --tests-regex "^($(IFS='|'; sed 's/fiber_proximity_python/python_.*/' <<<"${programs[*]}"))\$"
 }
 
