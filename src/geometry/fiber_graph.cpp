@@ -1,11 +1,11 @@
 #include "src/geometry/fiber_graph.hpp"
 
-#include <numeric>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
+#include "src/geometry/disjoint_sets.hpp"
 #include "src/geometry/norm.hpp"
 
 namespace fiber {
@@ -173,26 +173,14 @@ void FiberGraph::find_joints() {
 
 /// Joins fibres to sets, each known by its smallest fibre.
 void FiberGraph::find_components() {
-  components_.resize(offsets_.size() - 1);
-  std::iota(components_.begin(), components_.end(), 0U);
-  const auto root_of = [this](std::uint32_t fiber) {
-    while (components_[fiber] != fiber) {
-      components_[fiber] = components_[components_[fiber]];
-      fiber = components_[fiber];
-    }
-    return fiber;
-  };
+  DisjointSets joined(static_cast<std::uint32_t>(offsets_.size() - 1));
   for (std::uint32_t joint = 0; joint < joint_count(); ++joint) {
     const std::uint32_t first = joint_points_[*members(joint).begin()].fiber;
     for (const std::uint32_t member : members(joint)) {
-      const std::uint32_t x = root_of(first);
-      const std::uint32_t y = root_of(joint_points_[member].fiber);
-      components_[std::max(x, y)] = std::min(x, y);
+      joined.join(first, joint_points_[member].fiber);
     }
   }
-  for (std::uint32_t fiber = 0; fiber < components_.size(); ++fiber) {
-    components_[fiber] = root_of(fiber);
-  }
+  joined.find_roots(components_);
 }
 
 /// How far the points of this joint may be from its first one [m].

@@ -1,10 +1,10 @@
 #include "src/mpi/global_joints.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <string>
 #include <tuple>
 
+#include "src/geometry/disjoint_sets.hpp"
 #include "src/geometry/fiber_graph.hpp"
 #include "src/mpi/part_topology.hpp"
 
@@ -155,26 +155,19 @@ void GlobalJoints::take(std::vector<GlobalJointPoint> numbered) {
                                 }),
                     components_.end());
   const auto place_of = [this](std::uint64_t fiber) {
-    return static_cast<std::size_t>(
+    return static_cast<std::uint32_t>(
         std::lower_bound(components_.begin(), components_.end(), fiber,
                          [](const FiberComponent& x, std::uint64_t y) { return x.fiber < y; }) -
         components_.begin());
   };
-  std::vector<std::size_t> roots(components_.size());
-  std::iota(roots.begin(), roots.end(), std::size_t{0});
-  const auto root_of = [&](std::size_t place) {
-    while (roots[place] != place) {
-      place = roots[place] = roots[roots[place]];
-    }
-    return place;
-  };
+  DisjointSets joined(static_cast<std::uint32_t>(components_.size()));
   for (std::size_t i = 0; i < points_.size(); ++i) {
-    const std::size_t x = root_of(place_of(points_[i].fiber));
-    const std::size_t y = root_of(place_of(points_[before[i]].fiber));
-    roots[std::max(x, y)] = std::min(x, y);
+    joined.join(place_of(points_[i].fiber), place_of(points_[before[i]].fiber));
   }
+  std::vector<std::uint32_t> roots;
+  joined.find_roots(roots);
   for (std::size_t i = 0; i < components_.size(); ++i) {
-    components_[i].component = components_[root_of(i)].fiber;
+    components_[i].component = components_[roots[i]].fiber;
   }
   std::sort(points_.begin(), points_.end(), has_smaller_place);
 }

@@ -5,8 +5,8 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
+#include "src/geometry/disjoint_sets.hpp"
 #include "src/geometry/fiber_graph.hpp"
 
 namespace fiber {
@@ -132,51 +132,36 @@ struct Division {
   }
 };
 
-/// Makes equal points of one joint move together, with all that moves with them.
-void unite_joints(const FiberGraph& graph, const std::vector<Vector3d>& points,
-                  std::vector<std::uint32_t>& joints) {
-  std::vector<std::uint32_t> united = joints;  // by point that leads others, what leads it
-  const auto leader_of = [&united](std::uint32_t point) {
-    while (united[point] != point) {
-      point = united[point];
-    }
-    return point;
-  };
-  for (std::uint32_t joint = 0; joint < graph.joint_count(); ++joint) {
-    const std::uint32_t first = graph.joint_points()[*graph.members(joint).begin()].point;
-    for (const std::uint32_t member : graph.members(joint)) {
-      const std::uint32_t point = graph.joint_points()[member].point;
-      if (points[point] == points[first]) {
-        const std::uint32_t x = leader_of(first);
-        const std::uint32_t y = leader_of(point);
-        united[std::max(x, y)] = std::min(x, y);
-      }
-    }
-  }
-  for (std::uint32_t& joint : joints) {
-    joint = leader_of(joint);
-  }
-}
-
 /// Points that move together: equal ones in a row, the ends of a fibre and points of a joint if
-/// they are equal.
+/// they are equal. By point: the first that moves with it.
 std::vector<std::uint32_t> find_joints(const FiberAssembly& fibers) {
   const std::vector<Vector3d>& points = fibers.points();
-  std::vector<std::uint32_t> joints(points.size());
-  std::iota(joints.begin(), joints.end(), 0U);
+  DisjointSets together(static_cast<std::uint32_t>(points.size()));
   for (std::size_t fiber = 0; fiber < fibers.fiber_count(); ++fiber) {
     const std::uint32_t begin = fibers.offsets()[fiber];
     const std::uint32_t last = fibers.offsets()[fiber + 1] - 1;
     for (std::uint32_t i = begin + 1; i <= last; ++i) {
-      joints[i] = points[i] == points[i - 1] ? joints[i - 1] : i;
+      if (points[i] == points[i - 1]) {
+        together.join(i, i - 1);
+      }
     }
-    for (std::uint32_t i = last; i > begin && points[i] == points[begin]; --i) {
-      joints[i] = begin;
+    if (points[last] == points[begin]) {
+      together.join(last, begin);
     }
   }
-  if (fibers.graph() != nullptr) {
-    unite_joints(*fibers.graph(), points, joints);
+  if (const std::shared_ptr<const FiberGraph> graph = fibers.graph()) {
+    for (std::uint32_t joint = 0; joint < graph->joint_count(); ++joint) {
+      const std::uint32_t first = graph->joint_points()[*graph->members(joint).begin()].point;
+      for (const std::uint32_t member : graph->members(joint)) {
+        const std::uint32_t point = graph->joint_points()[member].point;
+        if (points[point] == points[first]) {
+          together.join(point, first);
+        }
+      }
+    }
   }
+  std::vector<std::uint32_t> joints;
+  together.find_roots(joints);
   return joints;
 }
 

@@ -15,31 +15,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-TEST(Islands, AreWhatWasJoined) {
-  SCOPED_TRACE(seed_message());
-  Random random;
-  for (int round = 0; round < 100; ++round) {
-    const int rods = random.integer(1, 20);
-    Islands islands;
-    islands.reset(static_cast<std::uint32_t>(rods));
-    std::vector<std::uint32_t> expected;
-    for (int rod = 0; rod < rods; ++rod) {
-      expected.push_back(static_cast<std::uint32_t>(rod));
-    }
-    for (int joins = random.integer(0, rods); joins > 0; --joins) {
-      const auto a = static_cast<std::uint32_t>(random.integer(0, rods - 1));
-      const auto b = static_cast<std::uint32_t>(random.integer(0, rods - 1));
-      islands.join(a, b);
-      const std::uint32_t least = std::min(expected[a], expected[b]);
-      const std::uint32_t other = std::max(expected[a], expected[b]);
-      std::replace(expected.begin(), expected.end(), other, least);
-      for (std::uint32_t rod = 0; rod < expected.size(); ++rod) {
-        ASSERT_EQ(islands.root(rod), expected[rod]) << "round " << round;
-      }
-    }
-  }
-}
-
 /// Rods that will hit each other and a table.
 void add_heap(Random& random, const Vector3d& place, Rods& rods) {
   const double radius = random.uniform(0.002, 0.01);

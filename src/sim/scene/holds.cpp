@@ -70,29 +70,6 @@ void read_waypoint(const YamlField& entry, SimWaypoint& waypoint) {
   }
 }
 
-Waypoints read_path(const YamlField& list, SimWaypoint waypoint) {
-  Waypoints path;
-  for (const YamlField& entry : list.items()) {
-    entry.require_map(key_names("waypoint"));
-    waypoint.time =
-        read_time(entry.get("time"),
-                  path.empty() ? std::nullopt : std::make_optional(path.back().time), "path");
-    read_waypoint(entry, waypoint);
-    path.push_back(waypoint);
-  }
-  if (path.empty()) {
-    list.refuse("a list of at least one entry");
-  }
-  return path;
-}
-
-/// Leads a path back to where it begins, after which it begins again.
-void close_path(const YamlField& period, Waypoints& path) {
-  const double length = read_period(period, path.back().time, "path");
-  path.push_back(path.front());
-  path.back().time = length;
-}
-
 double fastest_speed(const Waypoints& path) {
   double fastest = 0.0;
   for (std::size_t i = 1; i < path.size(); ++i) {
@@ -148,10 +125,11 @@ SimHold read_hold(const YamlField& entry, std::uint32_t rod, const Rods& rods) {
   SimWaypoint waypoint{0.0, frame ? Vector3d::Zero() : beginning,
                        tangent_at(rods, edge_at(rods, rod, hold.node)), std::nullopt};
   read_waypoint(entry, waypoint);
-  hold.path = path ? read_path(*path, waypoint) : Waypoints{waypoint};
+  hold.path = path ? read_entries(*path, "path", key_names("waypoint"), waypoint, read_waypoint)
+                   : Waypoints{waypoint};
   hold.is_periodic = period.has_value();
   if (period) {
-    close_path(*period, hold.path);
+    close_entries(*period, "path", hold.path);
   }
   if (const double speed = fastest_speed(hold.path); !(speed <= max_speed)) {
     throw std::invalid_argument(hold.place + " moves with " + std::to_string(speed) +

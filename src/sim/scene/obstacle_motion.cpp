@@ -95,29 +95,6 @@ void require_slow(const SimMovingObstacle& obstacle) {
   }
 }
 
-void read_obstacle_path(const YamlField& list, SimObstacleWaypoint waypoint,
-                        SimMovingObstacle& obstacle) {
-  std::vector<SimObstacleWaypoint>& path = obstacle.path;
-  for (const YamlField& entry : list.items()) {
-    entry.require_map(key_names("obstacle waypoint"));
-    waypoint.time =
-        read_time(entry.get("time"),
-                  path.empty() ? std::nullopt : std::make_optional(path.back().time), "path");
-    read_obstacle_waypoint(entry, waypoint);
-    path.push_back(waypoint);
-  }
-  if (path.empty()) {
-    list.refuse("a list of at least one entry");
-  }
-}
-
-/// Leads a path back to where it begins: turns of `angle` end where they began but for whole turns.
-void close_obstacle_path(const YamlField& period, std::vector<SimObstacleWaypoint>& path) {
-  const double length = read_period(period, path.back().time, "path");
-  path.push_back(path.front());
-  path.back().time = length;
-}
-
 Isometry3d pose_of(const SimObstacleWaypoint& waypoint, const Vector3d& axis) {
   Isometry3d pose = Isometry3d::Identity();
   pose.translation() = waypoint.position;
@@ -162,10 +139,11 @@ SimMovingObstacle read_obstacle_motion(const SceneObstacle& read) {
     obstacle.path = {beginning};
     return obstacle;
   }
-  read_obstacle_path(*path, beginning, obstacle);
+  obstacle.path = read_entries(*path, "path", key_names("obstacle waypoint"), beginning,
+                               read_obstacle_waypoint);
   obstacle.is_periodic = period.has_value();
   if (period) {
-    close_obstacle_path(*period, obstacle.path);
+    close_entries(*period, "path", obstacle.path);
   }
   require_slow(obstacle);
   obstacle.object.pose = obstacle.pose_at(0.0);

@@ -2,33 +2,27 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <utility>
 
+#include "src/geometry/disjoint_sets.hpp"
 #include "src/sim/solver/pack_kernels.hpp"
 
 namespace fiber {
 
 std::vector<JointCluster> joint_clusters(const JointParts& parts, std::uint32_t rods) {
-  std::vector<std::uint32_t> cluster_of(rods);
-  std::iota(cluster_of.begin(), cluster_of.end(), 0U);
-  const auto root = [&](std::uint32_t rod) {
-    while (cluster_of[rod] != rod) {
-      rod = cluster_of[rod];
-    }
-    return rod;
-  };
+  DisjointSets joined(rods);
   for (const std::vector<PlacedNode>& place : parts.places) {
     for (const PlacedNode& each : place) {
-      const auto [first, other] = std::minmax({root(place.front().rod), root(each.rod)});
-      cluster_of[other] = first;
+      joined.join(place.front().rod, each.rod);
     }
   }
+  std::vector<std::uint32_t> first_rod_of;  // by rod: of its cluster
+  joined.find_roots(first_rod_of);
   std::vector<JointCluster> clusters;
   std::map<std::uint32_t, std::uint32_t> place_of;  // by node
   std::vector<std::size_t> index_of(rods, rods);
   for (std::uint32_t i = 0; i < parts.places.size(); ++i) {
-    std::size_t& index = index_of[root(parts.places[i].front().rod)];
+    std::size_t& index = index_of[first_rod_of[parts.places[i].front().rod]];
     if (index == rods) {
       index = clusters.size();
       clusters.emplace_back();
@@ -43,7 +37,8 @@ std::vector<JointCluster> joint_clusters(const JointParts& parts, std::uint32_t 
     welds[place_of.at(parts.welds[i].edges[0].node)].push_back(i);
   }
   for (auto& [place, of_place] : welds) {
-    clusters[index_of[root(parts.places[place].front().rod)]].welds.push_back(std::move(of_place));
+    clusters[index_of[first_rod_of[parts.places[place].front().rod]]].welds.push_back(
+        std::move(of_place));
   }
   return clusters;
 }

@@ -146,13 +146,14 @@ void StageSolver::find_contacts(Rods& rods) {
 /// others with their island. A group that has the same rods as before stays as it is, and so do all
 /// of them, with their memory, while islands are the same.
 void StageSolver::make_groups(const Rods& rods) {
-  if (!groups_.empty() && grouped_ == islands_) {
+  islands_.find_roots(island_of_);
+  if (!groups_.empty() && grouped_ == island_of_) {
     return;
   }
-  grouped_ = islands_;
+  grouped_ = island_of_;
   std::vector<std::vector<std::uint32_t>> members(rods.count());
   for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
-    members[islands_.root(rod)].push_back(rod);
+    members[island_of_[rod]].push_back(rod);
   }
   std::vector<Group> groups;
   std::map<std::uint32_t, std::size_t> open;  // groups of single rods, by node count

@@ -3,53 +3,14 @@
 #include <tbb/concurrent_queue.h>
 #include <tbb/task_arena.h>
 
-#include <algorithm>
 #include <memory>
-#include <numeric>
 #include <vector>
 
 #include "fiber_proximity/sim/joints.hpp"
+#include "src/geometry/disjoint_sets.hpp"
 #include "src/sim/solver/newton.hpp"
 
 namespace fiber {
-
-/// The sets of rods that may touch each other in a step, directly or through others: a disjoint-set
-/// forest whose roots are the smallest rods of their sets.
-class Islands {
- public:
-  /// Each rod is alone.
-  void reset(std::uint32_t rods) {
-    parents_.resize(rods);
-    std::iota(parents_.begin(), parents_.end(), 0U);
-  }
-
-  /// Makes the islands of two rods one.
-  void join(std::uint32_t a, std::uint32_t b) {
-    const auto [first, other] = std::minmax({root(a), root(b)});
-    // Short paths to the root keep look-ups fast.
-    parents_[other] = parents_[a] = parents_[b] = first;
-  }
-
-  /// The smallest rod of a rod's island.
-  std::uint32_t root(std::uint32_t rod) const {
-    while (parents_[rod] != rod) {
-      rod = parents_[rod];
-    }
-    return rod;
-  }
-
-  /// Whether the same rods are together.
-  bool operator==(const Islands& other) const {
-    bool is_same = parents_.size() == other.parents_.size();
-    for (std::uint32_t rod = 0; is_same && rod < parents_.size(); ++rod) {
-      is_same = root(rod) == other.root(rod);
-    }
-    return is_same;
-  }
-
- private:
-  std::vector<std::uint32_t> parents_;  // by rod, never greater
-};
 
 /// One solve of a step: finds which rods may touch each other in it, and solves for each island by
 /// itself. Rods that touch none are solved for side by side.
@@ -133,9 +94,10 @@ class StageSolver {
   Joints* joints_;
   std::vector<JointCluster> joint_clusters_;
   tbb::task_arena arena_;
-  Islands islands_;
+  DisjointSets islands_;  // of rods that may touch each other in the step, or are joined
+  std::vector<std::uint32_t> island_of_;  // by rod: the smallest one of its island
   std::vector<Group> groups_;
-  Islands grouped_;                      // those that these groups are of
+  std::vector<std::uint32_t> grouped_;   // the islands that these groups are of, alike
   std::vector<std::uint32_t> group_of_;  // by rod
   SolverScratch scratch_;
   std::vector<ContactSet> found_by_;  // by source
