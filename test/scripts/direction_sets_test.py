@@ -12,7 +12,9 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / 'scripts'))
 import generate_direction_sets as generator  # noqa: E402
 
 SEED = int(os.environ.get('FIBER_PROXIMITY_TEST_SEED', '1'))
-STARTS = 60
+# Half of the starts or more end at the best packing, but for three lines, whose search ends a little before it.
+STARTS = 15
+STARTS_OF_THREE = 60
 # [degrees] By number of lines (Conway, Hardin and Sloane 1996).
 BEST_KNOWN = {3: 90.0, 4: 70.5288, 5: 63.4349, 6: 63.4349, 7: 54.7356, 8: 49.6399, 10: 46.6746, 12: 41.8820, 16: 37.3774}
 # [rad]
@@ -28,7 +30,8 @@ class DirectionSetsTest(unittest.TestCase):
 
     def test_finds_known_optima_from_random_starts(self):
         for count, angle in BEST_KNOWN.items():
-            found = generator.search_directions(count, None, STARTS, self.random)
+            starts = STARTS_OF_THREE if count == 3 else STARTS
+            found = generator.search_directions(count, None, starts, self.random)
             self.assertEqual(found.shape, (count, 3))
             self.assertAlmostEqual(math.degrees(generator.smallest_angle(found)), angle, delta=1e-3, msg=count)
             if count in CLOSED_FORMS:
