@@ -190,6 +190,47 @@ TEST(MovingObstacles, AGripperThatCannotCloseStaysBehind) {
   const auto lag = stepper.moving_obstacles()->longest_lag(stepper.time());
   ASSERT_TRUE(lag.has_value());
   EXPECT_NEAR(lag->distance, 0.45 * pushed_radius, 0.06 * pushed_radius);
+  // They press no harder the longer they try: each contact with 14 times what doubles the length.
+  const double most = 15.0 * rods.sections[0].stretching_stiffness;
+  const std::size_t contacts = stepper.forces().contacts.size();
+  for (const RodForces::ObstacleForce& jaw_force : stepper.forces().obstacles) {
+    EXPECT_GT(std::abs(jaw_force.force.x()), 0.01 * most);
+    EXPECT_LT(jaw_force.force.norm(), most * static_cast<double>(contacts));
+  }
+}
+
+/// Free ropes that a box hits flatly, askew, and over its edges.
+TEST(MovingObstacles, DoNotStayBehindFibersThatAreFree) {
+  SCOPED_TRACE(seed_message());
+  Random random;
+  constexpr double speed = 5.0;
+  constexpr double radius = 0.004;
+  for (const char* material : {"power_cable", "rope", "silicone_tube"}) {
+    for (const int edges : {40, 100}) {
+      SCOPED_TRACE(std::string(material) + " of " + std::to_string(edges) + " edges");
+      Rods rods;
+      rods.add(straight(Vector3d(0.1, -0.25, 0.0) + random.in_cube(0.02),
+                        Vector3d(0.1, 0.25, 0.0) + random.in_cube(0.02), edges),
+               radius, solid_round_section(material_preset(material), radius));
+      StepperOptions options;
+      options.threads = 1;
+      Stepper stepper(rods, elastic(), options,
+                      contacts_with_moving({going(BoxShape{Vector3d(0.1, 0.1, 0.3)},
+                                                  {-0.02, 0.0, 0.0}, {speed, 0.0, 0.0})},
+                                           0.4));
+      for (int i = 0; i < 24; ++i) {
+        stepper.step(1.0 / 240.0);
+        EXPECT_FALSE(stepper.moving_obstacles()->longest_lag(stepper.time()).has_value()) << i;
+      }
+      double mass = 0.0;
+      for (const double each : rods.masses) {
+        mass += each;
+      }
+      const double along = momentum_of(stepper.rods()).x() / mass;
+      EXPECT_GT(along, 0.2 * speed);
+      EXPECT_LT(along, 1.5 * speed);
+    }
+  }
 }
 
 TEST(MovingObstacles, AStateIsTakenWithWhereTheyAre) {

@@ -140,6 +140,16 @@ class ContactSet {
                            const std::vector<std::uint32_t>& islands,
                            std::vector<MotionEnergy>& energies) const;
 
+  /// What contacts resist obstacles with along their ways [J], and the most that these may do.
+  struct Resistance {
+    double now = 0.0;
+    double most = 0.0;
+  };
+
+  /// Adds them to those of the islands of their rods.
+  void add_resistances(const Rods& rods, const std::vector<std::uint32_t>& islands,
+                       std::vector<Resistance>& resistances) const;
+
   /// Evaluates the energy of each contact at the current distances.
   void evaluate_energies(const Rods& rods) { evaluate_energies(rods, 0); }
 

@@ -48,6 +48,23 @@ void ContactSet::add_longest_ways(const Rods& rods, const std::vector<std::uint3
   }
 }
 
+void ContactSet::add_resistances(const Rods& rods, const std::vector<std::uint32_t>& islands,
+                                 std::vector<Resistance>& resistances) const {
+  DistanceTerms buffer;
+  for (std::size_t i = 0; i < obstacle_contacts.size(); ++i) {
+    if (const MovedShape* const shape = moved_->of_contact(i)) {
+      const double most = obstacle_contacts[i].barrier.max_driven_force();
+      for_each_term(rods, i, buffer, [&](const ContactPoints& points, const DistanceTerm& term) {
+        const Vector3d point = point_at(rods.positions, points.edge_a, points.s);
+        const double approach = shape->way(point).dot(term.normal);
+        Resistance& resistance = resistances[islands[points.rod_a]];
+        resistance.now -= term.slope * approach;
+        resistance.most += most * std::max(0.0, approach);
+      });
+    }
+  }
+}
+
 void ContactSet::add_motion_energies(const Rods& rods, const std::vector<Vector3d>& displacements,
                                      const std::vector<std::uint32_t>& islands,
                                      std::vector<MotionEnergy>& energies) const {

@@ -89,8 +89,8 @@ void MovedShape::go_to(double progress) {
   now_.to_shape = now_.pose.inverse(Eigen::Isometry);
 }
 
-Vector3d MovedShape::way_left(const Vector3d& point) const {
-  return (1.0 - progress_) * (path_.way() + turn_.cross(point - now_.pose.translation()));
+Vector3d MovedShape::way(const Vector3d& point) const {
+  return path_.way() + turn_.cross(point - now_.pose.translation());
 }
 
 Vector3d MovedShape::displacement(const Vector3d& point) const {

@@ -51,8 +51,12 @@ class MovedShape {
                                  const std::array<Eigen::Vector3d, 2>& displacements,
                                  double share) const;
 
-  /// By how much a point that moves with the shape would still move at the rate of now [m].
-  Eigen::Vector3d way_left(const Eigen::Vector3d& point) const;
+  /// By how much a point that moves with the shape would move in the whole solve at the rate of
+  /// now, and how much of that is left [m].
+  Eigen::Vector3d way(const Eigen::Vector3d& point) const;
+  Eigen::Vector3d way_left(const Eigen::Vector3d& point) const {
+    return (1.0 - progress_) * way(point);
+  }
 
   /// By how much the point of the object that is here has moved since the step began, when it ends.
   /// The shape must be where it starts or ends.

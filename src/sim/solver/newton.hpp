@@ -130,7 +130,7 @@ class NewtonSolver {
   void begin_drives(const Rods& rods, const Problem& problem);
   void raise_drives(const Rods& rods, const Problem& problem);
   void keep_stuck(const MovedShapes& moved);
-  void move_with_obstacles(Rods& rods, const Problem& problem);
+  bool move_with_obstacles(Rods& rods, const Problem& problem);
   double obstacle_work(const Rods& rods, const Problem& problem);
   void assemble(Rods& rods, const Problem& problem);
   void add_joints_to_step(const Problem& problem);
@@ -170,6 +170,7 @@ class NewtonSolver {
   // island:
   std::vector<double> ways_left_;
   std::vector<double> progress_before_;
+  std::vector<ContactSet::Resistance> resistances_;  // by island
   std::vector<EnergySum> energies_before_;
   std::vector<double> friction_shares_;
 

@@ -46,8 +46,9 @@ void NewtonSolver::take_obstacles_along(Rods& rods, const Problem& problem) {
 ///
 /// As obstacles do work, energy rises on the way. What must fall is its sum with K (1 − p)², by the
 /// progress p: what drives the obstacles. K is at least what brings the rods to their speed, and as
-/// much as the step in hand is to need. From where this ends the rods go on to the minimum of the
-/// potential with the obstacles at their ends.
+/// much as the step in hand is to need. It pays for nothing where contacts resist by more than
+/// obstacles may press with: where rods cannot give way at that, obstacles are stuck. From where
+/// this ends the rods go on to the minimum of the potential with the obstacles at their ends.
 /// @returns false if a rod needs a wider travel bound, or obstacles are stuck
 bool NewtonSolver::move_obstacles(Rods& rods, const Problem& problem) {
   constexpr int max_rounds = 1000;
@@ -86,7 +87,10 @@ bool NewtonSolver::move_obstacles(Rods& rods, const Problem& problem) {
       return false;
     }
     raise_drives(rods, problem);
-    move_with_obstacles(rods, problem);
+    if (!move_with_obstacles(rods, problem)) {
+      keep_stuck(*moved);
+      return false;
+    }
   }
   for (IslandState& state : states_) {
     state.is_active = true;
@@ -114,7 +118,9 @@ void NewtonSolver::begin_drives(const Rods& rods, const Problem& problem) {
 /// energy. With the way d that is left to the obstacles, the contacts' Hessian C by it, and
 /// Newton's step s by the Hessian H and the gradient g − C d, that is
 ///   g·s + e + ½ (s·H s − 2 s·C d + d·C d),
-/// and H s = C d − g. The predicted decrease is −(g − C d)·s.
+/// and H s = C d − g. The predicted decrease is −(g − C d)·s. Where the weights of contacts change,
+/// H is not quite the Hessian, and the quadratic part may come out below 0; then the linear part
+/// alone tells, so that the first of the way can be paid for.
 void NewtonSolver::raise_drives(const Rods& rods, const Problem& problem) {
   motion_energies_.assign(states_.size(), ContactSet::MotionEnergy{});
   problem.contacts->add_motion_energies(rods, scratch_->displacements, scratch_->islands,
@@ -124,7 +130,7 @@ void NewtonSolver::raise_drives(const Rods& rods, const Problem& problem) {
       const ContactSet::MotionEnergy& motion = motion_energies_[i];
       const double decrease = states_[i].predicted_decrease;
       const double linear = motion.mixed - decrease + motion.slope;
-      const double quadratic = 0.5 * (decrease - 2.0 * motion.mixed + motion.square);
+      const double quadratic = std::max(0.0, 0.5 * (decrease - 2.0 * motion.mixed + motion.square));
       const double left = 1.0 - problem.contacts->moved_shapes()->progress(i);
       drives_[i] = std::max(drives_[i], 2.0 * (linear + quadratic) / (left * left));
     }
@@ -143,8 +149,9 @@ void NewtonSolver::keep_stuck(const MovedShapes& moved) {
 }
 
 /// Moves rods and obstacles of islands by their shares of a step, or as much less as what must fall
-/// rises.
-void NewtonSolver::move_with_obstacles(Rods& rods, const Problem& problem) {
+/// rises, or obstacles would press too deep.
+/// @returns false if there is none by which an island can move
+bool NewtonSolver::move_with_obstacles(Rods& rods, const Problem& problem) {
   constexpr int max_halvings = 60;
   MovedShapes& moved = *problem.contacts->moved_shapes();
   energies_before_ = energies_;
@@ -155,6 +162,7 @@ void NewtonSolver::move_with_obstacles(Rods& rods, const Problem& problem) {
     trial_shares_[i] = states_[i].is_active ? trial_shares_[i] : 0.0;
   }
   bool has_risen = true;
+  bool can_move = true;
   for (int halvings = 0; has_risen; ++halvings) {
     line_search_.begin(states_.size(), 0);
     for (std::size_t i = 0; i < states_.size(); ++i) {
@@ -165,20 +173,25 @@ void NewtonSolver::move_with_obstacles(Rods& rods, const Problem& problem) {
       }
     }
     evaluate_trial_step(rods, problem);
+    resistances_.assign(states_.size(), ContactSet::Resistance{});
+    problem.contacts->add_resistances(rods, scratch_->islands, resistances_);
     has_risen = false;
     for (std::size_t i = 0; i < states_.size(); ++i) {
       const double left = 1.0 - before[i];
       const double left_now = 1.0 - moved.progress(i);
-      const double driven = drives_[i] * (left * left - left_now * left_now);
+      const bool may_press = resistances_[i].now <= resistances_[i].most;
+      const double driven = may_press ? drives_[i] * (left * left - left_now * left_now) : 0.0;
       const bool is_lower = energies_[i].energy <=
                             energies_before_[i].energy + driven + energies_before_[i].roundoff();
       if (trial_shares_[i] > 0.0 && !is_lower) {
         trial_shares_[i] = halvings < max_halvings ? 0.5 * trial_shares_[i] : 0.0;
+        can_move &= trial_shares_[i] > 0.0;
         has_risen = true;
       }
     }
   }
   bound_.advance(trial_shares_);
+  return can_move;
 }
 
 /// The work of moving obstacles in the solve [J]: that is energy which impacts may give back.
