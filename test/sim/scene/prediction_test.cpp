@@ -260,6 +260,10 @@ TEST_F(PredictionTest, WhatMayNotBeAskedIsRefusedAndChangesNothing) {
             "across each other");
   EXPECT_NE(error(trajectory_to({0, 0, 5}, 0.0)).find("it begins 5 m from where"),
             std::string::npos);
+  // By more than an edge, however stiff it is.
+  const double edge = scene.stepper->rods().rest_lengths[0];
+  EXPECT_NE(error(trajectory_to({0, 0, 1.1 * edge}, 0.0)).find("m from where the node is held"),
+            std::string::npos);
   EXPECT_EQ(error(trajectory_to({0, 0, 5000}, 1.0)),
             "trajectory 1: entry 0: it goes 5e+03 m in 1 s, at most 1e+03 m/s are allowed");
   EXPECT_FALSE(scene.attachment->find(0, 3).has_value()) << "the first one was not taken";
