@@ -20,8 +20,20 @@ from geometry_msgs.msg import Pose
 from sensor_msgs.msg import JointState
 
 STEP = 0.05  # [s] between poses of links
+MAX_DURATION = 60.0  # [s] of a motion
 AFTERWARDS = 0.5  # [s] cables swing on when the arm stands
 CLIPS = ('shoulder_link', 'upper_arm', 'forearm', 'hand')  # the links that hold fibres, in config/sim/arm_harness.yaml
+
+
+def read_goals(texts):
+    goals = {}
+    for text in texts:
+        name, _, value = text.partition('=')
+        try:
+            goals[name] = float(value)
+        except ValueError:
+            raise ValueError(f"a goal is JOINT=RADIANS, not '{text}'") from None
+    return goals
 
 
 def way(start, goal, speed):
@@ -30,6 +42,8 @@ def way(start, goal, speed):
     begin = np.array([start[name] for name in joints])
     change = np.array([goal.get(name, start[name]) for name in joints]) - begin
     duration = max(STEP, 1.5 * np.abs(change).max() / speed)
+    if not duration <= MAX_DURATION:
+        raise ValueError(f'the motion takes {duration:.3g} s, it may take at most {MAX_DURATION:g} s')
     times = np.append(np.arange(STEP, duration, STEP), duration)
     part = times / duration
     shares = part ** 2 * (3.0 - 2.0 * part)
@@ -98,7 +112,7 @@ def main():
     arguments = parser.parse_args(rospy.myargv()[1:])
     rospy.init_node('predict_motion', anonymous=True)
     try:
-        goal = {name: float(value) for name, value in (each.split('=') for each in arguments.goal)}
+        goal = read_goals(arguments.goal)
         robot = Robot(rospy.get_param('robot_description'))
         state = rospy.wait_for_message('joint_states', JointState, timeout=10.0)
         start = dict(zip(state.name, state.position))
