@@ -32,7 +32,9 @@ def read_goals(texts):
         try:
             goals[name] = float(value)
         except ValueError:
-            raise ValueError(f"a goal is JOINT=RADIANS, not '{text}'") from None
+            goals[name] = np.nan
+        if not np.isfinite(goals[name]):
+            raise ValueError(f"a goal is JOINT=RADIANS, not '{text}'")
     return goals
 
 
