@@ -79,6 +79,11 @@ void read_velocities(const YamlField& entry, FiberEntry& fiber) {
 void set_velocities(const FiberEntry& entry, Rods& rods) {
   const std::uint32_t first = rods.first(rods.count() - 1);
   const std::uint32_t last = rods.end(rods.count() - 1) - 1;
+  const double of_surface = entry.angular_velocity.norm() * rods.radii.back();
+  if (!(of_surface <= max_initial_speed)) {
+    throw std::invalid_argument("its surface begins with " + std::to_string(of_surface) +
+                                " m/s about its axis, it must be " + speed_limit());
+  }
   Eigen::Vector3d center = Eigen::Vector3d::Zero();
   double mass = 0.0;
   for (std::uint32_t i = first; i <= last; ++i) {

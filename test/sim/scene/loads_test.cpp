@@ -234,6 +234,9 @@ TEST_F(SimSceneTest, VelocitiesThatCannotBeAreErrors) {
       {"angular_velocity: [0, 3000, 0]",
        "2: fibers[0]: point 0 begins with 1500.000000 m/s, it must be at most 1000 m/s (fibre "
        "'cable')"},
+      {"angular_velocity: [1e6, 0, 0]",
+       "2: fibers[0]: its surface begins with 10000.000000 m/s about its axis, it must be at most "
+       "1000 m/s (fibre 'cable')"},
       {"angular_velocity: [0, .inf, 0]",
        "4: fibers[0].angular_velocity is [0, .inf, 0], it must be finite (fibre 'cable')"},
   };
