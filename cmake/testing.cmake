@@ -1,6 +1,3 @@
-# Those of the tests below that ThreadSanitizer is to see.
-add_custom_target(threaded_tests)
-
 # All tests below, and a file with their programs, for scripts/campaign.sh.
 add_custom_target(unit_tests)
 file(GENERATE OUTPUT ${PROJECT_BINARY_DIR}/unit_tests.txt
@@ -65,7 +62,6 @@ function(fiber_proximity_gtest name)
     add_test(NAME ${name} COMMAND ${name})
     if(ARG_THREADED)
       set_tests_properties(${name} PROPERTIES LABELS threaded)
-      add_dependencies(threaded_tests ${name})
     endif()
   endif()
   target_link_libraries(${name} fiber_proximity fiber_proximity_options test_support ${ARG_LIBRARIES})
