@@ -1,6 +1,7 @@
 # Rods that move by the effects a scene calls for, and the YAML files of scenes; no ROS.
 
 add_library(fiber_proximity_sim SHARED
+  src/sim/contact/add_obstacle_contacts.cpp
   src/sim/contact/contact_neighbours.cpp
   src/sim/contact/contact_set.cpp
   src/sim/contact/contact_derivatives.cpp
@@ -11,6 +12,7 @@ add_library(fiber_proximity_sim SHARED
   src/sim/contact/surface_lever.cpp
   src/sim/contact/contact_set_step.cpp
   src/sim/contact/edge_contact.cpp
+  src/sim/contact/flat_parts.cpp
   src/sim/contact/moved_shape.cpp
   src/sim/contact/moved_shapes.cpp
   src/sim/contact/obstacle_contact.cpp

@@ -63,6 +63,7 @@ void ContactSet::begin(const Rods& rods, const Friction* friction, const Frictio
   }
   if (friction != nullptr) {
     stick_length_ = friction->stick_length(step);
+    anchors_.assign(distance_count(), std::nullopt);
     add_friction(rods, [](std::uint32_t /*rod*/) { return 1.0; });
   }
 }
@@ -116,7 +117,13 @@ void ContactSet::add_friction(const Rods& rods, const ShareOf& share_of) {
                 lever_motion(*levers, points, origins_.state->positions, origins_.state->angles);
           }
           const double max_force = scale * friction_->coefficient() * term.pressure;
-          Vector3d slip = origins_.anchors->slip_at(points, term.normal, max_force, stick_length_);
+          if (!anchors_[i]) {
+            anchors_[i] = origins_.anchors->nearest(points, term.normal);
+          }
+          const FrictionAnchors::Anchor* const anchor = *anchors_[i];
+          Vector3d slip = anchor != nullptr
+                              ? FrictionAnchors::slip_from(*anchor, max_force, stick_length_)
+                              : Vector3d::Zero();
           if (has_motion_) {
             move_reference(*moved_, rods, points, levers, reference, slip);
           }

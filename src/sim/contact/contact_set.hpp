@@ -231,6 +231,10 @@ class ContactSet {
   std::vector<ObstacleDistance> obstacle_distances_;  // by contact
   std::vector<bool> was_near_;                        // when the step began, by contact
   std::vector<FrictionPoint> frictions_;
+  // What friction of a contact goes on with, by contact, once that has pressed in the step. It
+  // stays that one: the points of a contact move while forces are balanced, and with friction that
+  // jumps from one anchor to another they never are.
+  std::vector<std::optional<const FrictionAnchors::Anchor*>> anchors_;
   std::vector<double> max_forces_before_;  // of friction, by contact [N]; buffer
   std::vector<Impact> impacts_;            // of the step
   bool has_motion_ = false;                // in this solve

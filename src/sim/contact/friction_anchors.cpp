@@ -69,24 +69,18 @@ void FrictionAnchors::remove_object(std::uint32_t object) {
   sort(offsets_.empty() ? 0 : offsets_.size() - 1);
 }
 
-Vector3d FrictionAnchors::slip_at(const ContactPoints& points, const Vector3d& normal,
-                                  double max_force, double stick_length) const {
-  if (anchors_.empty()) {
-    return Vector3d::Zero();
-  }
-  const Anchor* const anchor = nearest(points, normal);
-  if (anchor == nullptr) {
-    return Vector3d::Zero();
-  }
-  const double length = anchor->slip.norm();
+Vector3d FrictionAnchors::slip_from(const Anchor& anchor, double max_force, double stick_length) {
+  const double length = anchor.slip.norm();
   const double energy = max_force * Friction::law(length * stick_length, stick_length).energy;
-  const double factor = energy > 0.0 ? factor_for(anchor->energy / energy, length) : 1.0;
-  return factor * stick_length * anchor->slip;
+  const double factor = energy > 0.0 ? factor_for(anchor.energy / energy, length) : 1.0;
+  return factor * stick_length * anchor.slip;
 }
 
-/// Null where none lies near enough.
 const FrictionAnchors::Anchor* FrictionAnchors::nearest(const ContactPoints& points,
                                                         const Vector3d& normal) const {
+  if (anchors_.empty()) {
+    return nullptr;
+  }
   const Anchor* found = nullptr;
   double nearest = std::numeric_limits<double>::infinity();
   const std::size_t last = std::min<std::size_t>(points.edge_a + 2, offsets_.size() - 1);

@@ -34,19 +34,20 @@ class FrictionAnchors {
   /// The energy of all [J].
   double energy() const { return energy_; }
 
-  /// The slip with which a contact begins: that of the nearest anchor between the same two bodies,
-  /// which lies no more than one edge away on either. Contacts wander over the edges of a rod, and
-  /// end and begin at their nodes. Where the contact presses more than that of the anchor did, its
-  /// slip is less, so that its energy is no more.
-  /// @param max_force    of friction [N]
-  /// @param stick_length [m]
-  /// @returns in [m]; zero where there is no such anchor
-  Eigen::Vector3d slip_at(const ContactPoints& points, const Eigen::Vector3d& normal,
-                          double max_force, double stick_length) const;
-
- private:
+  /// That which a contact goes on with: the nearest one between the same two bodies, which lies no
+  /// more than one edge away on either. Contacts wander over the edges of a rod, and end and begin
+  /// at their nodes.
+  /// @returns null where none lies near enough; valid until the next add() or clear()
   const Anchor* nearest(const ContactPoints& points, const Eigen::Vector3d& normal) const;
 
+  /// The slip with which a contact begins that goes on with an anchor. Where it presses more than
+  /// that did, its slip is less, so that its energy is no more.
+  /// @param max_force    of friction [N]
+  /// @param stick_length [m]
+  /// @returns in [m]
+  static Eigen::Vector3d slip_from(const Anchor& anchor, double max_force, double stick_length);
+
+ private:
   std::vector<Anchor> anchors_;
   std::vector<std::uint32_t> by_edge_;  // anchors, in the order of their edges of rod a
   std::vector<std::uint32_t>

@@ -3,13 +3,16 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <functional>
+#include <optional>
 #include <variant>
 #include <vector>
 
 #include "fiber_proximity/environment/shapes.hpp"
 #include "src/environment/convex_solids.hpp"
 #include "src/environment/triangle_distance.hpp"
+#include "src/sim/contact/contact_points.hpp"
 #include "src/sim/contact/edge_contact.hpp"
+#include "src/sim/contact/edge_part.hpp"
 
 namespace fiber {
 
@@ -62,7 +65,14 @@ class ObstaclePiece {
   /// nowhere below its tangent planes.
   PointDistance distance_from(const Eigen::Vector3d& point) const;
 
+  /// The point of an edge over the middle of a flat that lies between the ends of the edge: of the
+  /// flat that this point is nearest to. None where there is no such flat.
+  std::optional<double> middle_of_flat(const Eigen::Vector3d& p0, const Eigen::Vector3d& p1) const;
+
  private:
+  template <class Ask>
+  auto ask_solid(const Ask& ask) const;
+
   const ObstacleShape* shape_;
   Part part_;
 };
@@ -73,28 +83,38 @@ void visit_near_pieces(const ObstacleShape& shape, const Eigen::Vector3d& p0,
                        const Eigen::Vector3d& p1, double within,
                        const std::function<void(const ObstaclePiece&)>& visit);
 
-/// A node or an edge of a rod, and a convex part of an obstacle that it may touch.
+/// A node or an edge of a rod and a convex part of an obstacle that it may touch.
 ///
 /// A node has the barrier of its distance. An edge has that of its own times a weight, as edges
 /// that cross have (EdgePair): 0 where one of its ends is as near, and 1 where both are too far
 /// away to have a barrier of their own. So a rod that lies flat rests on its nodes, and the force
 /// on one that slides around a post, touching it with edges, does not jump.
+///
+/// An edge that lies flat on what is shorter than itself has no end there that it could rest on,
+/// and where it turns, its nearest point jumps from one end of the flat to the other: the energy
+/// would have a kink. So it has three contacts: of its point over the middle of the flat, with the
+/// weight of the edge's, and of the parts on either side of this point.
 struct ObstacleContact {
-  enum class Part { FIRST_NODE, LAST_NODE, EDGE };
-
   std::uint32_t rod;
   std::uint32_t edge;  ///< as Rods counts edges
-  Part part;           ///< of the edge
+  EdgePart part;
+  std::optional<double> point;  ///< of the part that touches; none for the nearest
   Barrier barrier;
   double restitution;  ///< of impacts, in [0, 1]
   ObstaclePiece piece;
+
+  /// The values at the ends of its part, of what is linear along the edge.
+  /// @param values of nodes
+  std::array<Eigen::Vector3d, 2> ends(const std::vector<Eigen::Vector3d>& values) const {
+    return {point_at(values, edge, part.first), point_at(values, edge, part.last)};
+  }
 };
 
 /// The distance of such a contact. Contacts of nodes only have `nearest`.
 struct ObstacleDistance {
-  PointDistance nearest;
-  double s = 0.0;                     ///< where on the edge that is
-  std::array<PointDistance, 2> ends;  ///< of an edge
+  PointDistance nearest;              ///< of the point that touches
+  double s = 0.0;                     ///< where on the part that is
+  std::array<PointDistance, 2> ends;  ///< of the part
   double weight = 1.0;                ///< with 0, `nearest` is only a lower bound of the distance
 };
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 
+#include "src/sim/contact/add_obstacle_contacts.hpp"
 #include "src/sim/contact/contact_neighbours.hpp"
 #include "src/sim/contact/contact_set.hpp"
 #include "src/sim/effects/doubled_fibers.hpp"
@@ -314,22 +314,8 @@ void EnvironmentContact::add(const Rods& rods, const Contact& contact, double wi
          -contact.normal,
          {fibers_.points()[std::size_t{2} * edge], fibers_.points()[std::size_t{2} * edge + 2]}});
   }
-  const double radius = is_edge ? rods.edge_radius(rod, edge) : rods.node_radius(rod, node);
-  const Barrier barrier = Barrier::around(
-      radius, options_.stiffness > 0.0 ? options_.stiffness
-                                       : material_contact_stiffness(rods.sections[rod], radius));
-  using Part = ObstacleContact::Part;
-  const Part part = is_edge ? Part::EDGE : is_last ? Part::LAST_NODE : Part::FIRST_NODE;
-  const auto add_piece = [&](const ObstaclePiece& piece) {
-    found.obstacle_contacts.push_back({rod, edge, part, barrier, options_.restitution, piece});
-  };
-  if (shape.is_convex()) {
-    add_piece(ObstaclePiece(shape, {}));
-    return;
-  }
-  const Vector3d& p0 = rods.positions[node];
-  const Vector3d& p1 = is_edge ? rods.positions[node + 1] : p0;
-  visit_near_pieces(shape, p0, p1, within, std::cref(add_piece));
+  const EdgePart part = is_edge ? whole_edge : is_last ? last_node : first_node;
+  add_obstacle_contacts(shape, rods, rod, edge, part, options_, within, found.obstacle_contacts);
 }
 
 }  // namespace fiber

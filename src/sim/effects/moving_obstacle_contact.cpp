@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include "fiber_proximity/sim/moving_obstacles.hpp"
 #include "src/environment/allowed_contacts.hpp"
 #include "src/environment/object_path.hpp"
+#include "src/sim/contact/add_obstacle_contacts.hpp"
 #include "src/sim/contact/contact_set.hpp"
 #include "src/sim/effects/doubled_fibers.hpp"
 #include "src/sim/require.hpp"
@@ -85,7 +85,6 @@ class MovingObstacleContact::Finder {
   template <class IsAllowed>
   void find_of(const ObstacleShape& shape, std::uint32_t rod, double within,
                const IsAllowed& is_allowed) {
-    using Part = ObstacleContact::Part;
     const bool has_edges = !std::holds_alternative<HalfSpaceShape>(*shape.shape);
     const std::uint32_t first = rods_.first(rod);
     const std::uint32_t last = rods_.end(rod) - 1;
@@ -93,8 +92,7 @@ class MovingObstacleContact::Finder {
       const Vector3d& p0 = rods_.positions[node];
       if (!is_allowed(2 * (node - first)) && is_near(shape, p0, p0, within)) {
         const bool is_last = node == last;
-        add(shape, rod, is_last ? node - 1 : node, is_last ? Part::LAST_NODE : Part::FIRST_NODE, p0,
-            p0, within);
+        add(shape, rod, is_last ? node - 1 : node, is_last ? last_node : first_node, within);
       }
       if (node == last || !has_edges || is_allowed(2 * (node - first) + 1)) {
         continue;
@@ -102,7 +100,7 @@ class MovingObstacleContact::Finder {
       const Vector3d& p1 = rods_.positions[node + 1];
       if (is_near(shape, p0, p1, within)) {
         found_.obstacle_edges.push_back({rod, node, &shape, 0.0, p0, p0, {p0, p1}});
-        add(shape, rod, node, Part::EDGE, p0, p1, within);
+        add(shape, rod, node, whole_edge, within);
       }
     }
   }
@@ -113,24 +111,10 @@ class MovingObstacleContact::Finder {
            within;
   }
 
-  void add(const ObstacleShape& shape, std::uint32_t rod, std::uint32_t edge,
-           ObstacleContact::Part part, const Vector3d& p0, const Vector3d& p1, double within) {
-    using Part = ObstacleContact::Part;
-    const std::uint32_t node = part == Part::LAST_NODE ? edge + 1 : edge;
-    const double radius =
-        part == Part::EDGE ? rods_.edge_radius(rod, edge) : rods_.node_radius(rod, node);
-    const double stiffness = options_.stiffness > 0.0
-                                 ? options_.stiffness
-                                 : material_contact_stiffness(rods_.sections[rod], radius);
-    const Barrier barrier = Barrier::around(radius, stiffness);
-    const auto add_piece = [&](const ObstaclePiece& piece) {
-      found_.obstacle_contacts.push_back({rod, edge, part, barrier, options_.restitution, piece});
-    };
-    if (shape.is_convex()) {
-      add_piece(ObstaclePiece(shape, {}));
-      return;
-    }
-    visit_near_pieces(shape, p0, p1, within, std::cref(add_piece));
+  void add(const ObstacleShape& shape, std::uint32_t rod, std::uint32_t edge, const EdgePart& part,
+           double within) {
+    add_obstacle_contacts(shape, rods_, rod, edge, part, options_, within,
+                          found_.obstacle_contacts);
   }
 
   const EnvironmentContact::Options& options_;
