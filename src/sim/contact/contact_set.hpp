@@ -140,7 +140,8 @@ class ContactSet {
                            const std::vector<std::uint32_t>& islands,
                            std::vector<MotionEnergy>& energies) const;
 
-  /// What contacts resist obstacles with along their ways [J], and the most that these may do.
+  /// What contacts press with along the ways of obstacles, in front of them or behind [J], and the
+  /// most that these may.
   struct Resistance {
     double now = 0.0;
     double most = 0.0;

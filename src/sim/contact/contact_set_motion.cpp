@@ -18,7 +18,7 @@ void ContactSet::for_each_term_of_motion(const Rods& rods, const Function& funct
   DistanceTerms buffer;
   for (std::size_t i = 0; i < obstacle_contacts.size(); ++i) {
     const MovedShape* const shape = moved_->of_contact(i);
-    if (shape != nullptr && !shape->has_arrived()) {
+    if (shape != nullptr && !shape->stands_still()) {
       for_each_term(rods, i, buffer, [&](const ContactPoints& points, const DistanceTerm& term) {
         const Vector3d point = point_at(rods.positions, points.edge_a, points.s);
         function(points, term, shape->way_left(point).dot(term.normal));
@@ -56,10 +56,10 @@ void ContactSet::add_resistances(const Rods& rods, const std::vector<std::uint32
       const double most = obstacle_contacts[i].barrier.max_driven_force();
       for_each_term(rods, i, buffer, [&](const ContactPoints& points, const DistanceTerm& term) {
         const Vector3d point = point_at(rods.positions, points.edge_a, points.s);
-        const double approach = shape->way(point).dot(term.normal);
+        const double approach = std::abs(shape->way(point).dot(term.normal));
         Resistance& resistance = resistances[islands[points.rod_a]];
         resistance.now -= term.slope * approach;
-        resistance.most += most * std::max(0.0, approach);
+        resistance.most += most * approach;
       });
     }
   }

@@ -128,7 +128,7 @@ void ContactSet::bound_step(const Rods& rods, const std::vector<Vector3d>& displ
   for (std::size_t i = 0; i < obstacle_contacts.size(); ++i) {
     double& share = shares[islands[obstacle_contacts[i].rod]];
     const MovedShape* const moved = has_motion_ ? moved_->of_contact(i) : nullptr;
-    if (moved != nullptr && !moved->has_arrived()) {
+    if (moved != nullptr && !moved->stands_still()) {
       share = bounded_share(obstacle_contacts[i], obstacle_distances_[i], *moved, rods.positions,
                             displacements, max_loss, share);
       continue;

@@ -80,6 +80,7 @@ void MovedShape::assign(const ObstacleShape& source) {
     const Eigen::AngleAxisd turn(Eigen::Matrix3d(last_.linear() * first_.linear().transpose()));
     turn_ = turn.angle() * turn.axis();
   }
+  waits_ = false;
   go_to(path_.moves() ? 0.0 : 1.0);
 }
 
@@ -115,7 +116,7 @@ MovedShape::RelativeMotion MovedShape::relative_motion(const std::array<Vector3d
                                                        const std::array<Vector3d, 2>& displacements,
                                                        double share) const {
   RelativeMotion motion;
-  if (has_arrived()) {
+  if (stands_still()) {
     motion.ways = {share * displacements[0], share * displacements[1]};
     return motion;
   }

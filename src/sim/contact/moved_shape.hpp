@@ -36,6 +36,11 @@ class MovedShape {
   double progress() const { return progress_; }
   bool has_arrived() const { return progress_ == 1.0; }
   bool moves() const { return path_.moves(); }
+
+  /// Has it stand where it is, while rods give way.
+  void wait(bool waits) { waits_ = waits; }
+  bool stands_still() const { return waits_ || has_arrived(); }
+
   void go_to(double progress);
 
   /// How the ends of an edge move against the shape, as if it stood still where it is now.
@@ -80,6 +85,7 @@ class MovedShape {
   ObjectPath path_;                                 // from the first to the last
   Eigen::Vector3d turn_ = Eigen::Vector3d::Zero();  // along it, about this axis by its length [rad]
   double progress_ = 0.0;
+  bool waits_ = false;
 };
 
 /// Shortens a share of a step so that the distance from a moving obstacle loses no more than a part

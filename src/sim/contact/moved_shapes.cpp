@@ -68,6 +68,14 @@ void MovedShapes::go_to(std::size_t island, double progress) {
   }
 }
 
+void MovedShapes::wait(std::size_t island, bool waits) {
+  for (const Placed& each : shapes_) {
+    if (each.island == island) {
+      each.shape->wait(waits);
+    }
+  }
+}
+
 std::vector<std::uint32_t> MovedShapes::objects_of(std::size_t island) const {
   std::vector<std::uint32_t> objects;
   for (const Placed& each : shapes_) {

@@ -33,6 +33,9 @@ class MovedShapes {
   double progress(std::size_t island) const { return progress_[island]; }
   void go_to(std::size_t island, double progress);
 
+  /// Has an island's shapes stand where they are, or go on.
+  void wait(std::size_t island, bool waits);
+
   /// The objects that are on their way in an island, by index.
   std::vector<std::uint32_t> objects_of(std::size_t island) const;
 

@@ -171,6 +171,7 @@ class NewtonSolver {
   std::vector<double> ways_left_;
   std::vector<double> progress_before_;
   std::vector<ContactSet::Resistance> resistances_;  // by island
+  std::vector<int> rounds_waited_;                   // by island: for which obstacles have waited
   std::vector<EnergySum> energies_before_;
   std::vector<double> friction_shares_;
 

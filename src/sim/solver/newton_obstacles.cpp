@@ -47,13 +47,16 @@ void NewtonSolver::take_obstacles_along(Rods& rods, const Problem& problem) {
 /// As obstacles do work, energy rises on the way. What must fall is its sum with K (1 − p)², by the
 /// progress p: what drives the obstacles. K is at least what brings the rods to their speed, and as
 /// much as the step in hand is to need. It pays for nothing where contacts resist by more than
-/// obstacles may press with: where rods cannot give way at that, obstacles are stuck. From where
-/// this ends the rods go on to the minimum of the potential with the obstacles at their ends.
+/// obstacles may press with: where rods cannot give way at that, obstacles are stuck. Near that
+/// they wait for some rounds, in which rods alone give way. From where this ends the rods go on to
+/// the minimum of the potential with the obstacles at their ends.
 /// @returns false if a rod needs a wider travel bound, or obstacles are stuck
 bool NewtonSolver::move_obstacles(Rods& rods, const Problem& problem) {
   constexpr int max_rounds = 1000;
   constexpr int patience = 50;     // rounds
   constexpr double little = 0.01;  // of the way that was left, in so many rounds
+  constexpr double much = 0.5;     // of what obstacles may press with
+  constexpr int max_waiting = 5;   // rounds
   MovedShapes* const moved =
       problem.contacts != nullptr ? problem.contacts->moved_shapes() : nullptr;
   if (moved == nullptr) {
@@ -62,12 +65,17 @@ bool NewtonSolver::move_obstacles(Rods& rods, const Problem& problem) {
   begin_drives(rods, problem);
   std::vector<double>& left = ways_left_;  // when patience began
   left.assign(states_.size(), 1.0);
+  resistances_.assign(states_.size(), ContactSet::Resistance{});
+  rounds_waited_.assign(states_.size(), 0);
   for (int round = 0;; ++round) {
     bool is_any_moving = false;
     for (std::size_t i = 0; i < states_.size(); ++i) {
       states_[i].is_active = moved->progress(i) < 1.0;
       states_[i].scale = 1.0;
       is_any_moving |= states_[i].is_active;
+      const bool presses = resistances_[i].now > much * resistances_[i].most;
+      rounds_waited_[i] = presses && rounds_waited_[i] < max_waiting ? rounds_waited_[i] + 1 : 0;
+      moved->wait(i, rounds_waited_[i] > 0);
     }
     if (!is_any_moving) {
       break;
@@ -169,7 +177,9 @@ bool NewtonSolver::move_with_obstacles(Rods& rods, const Problem& problem) {
       line_search_.island(i).share = trial_shares_[i];
       if (states_[i].is_active) {
         const double share = trial_shares_[i];
-        moved.go_to(i, share == 1.0 ? 1.0 : before[i] + share * (1.0 - before[i]));
+        const bool waits = rounds_waited_[i] > 0;
+        const double way = waits ? 0.0 : share * (1.0 - before[i]);
+        moved.go_to(i, share == 1.0 && !waits ? 1.0 : before[i] + way);
       }
     }
     evaluate_trial_step(rods, problem);
@@ -185,7 +195,7 @@ bool NewtonSolver::move_with_obstacles(Rods& rods, const Problem& problem) {
                             energies_before_[i].energy + driven + energies_before_[i].roundoff();
       if (trial_shares_[i] > 0.0 && !is_lower) {
         trial_shares_[i] = halvings < max_halvings ? 0.5 * trial_shares_[i] : 0.0;
-        can_move &= trial_shares_[i] > 0.0;
+        can_move &= trial_shares_[i] > 0.0 || rounds_waited_[i] > 0;
         has_risen = true;
       }
     }
