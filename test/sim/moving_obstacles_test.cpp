@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "test/environment/random_shapes.hpp"
@@ -205,9 +206,12 @@ TEST(MovingObstacles, DoNotStayBehindFibersThatAreFree) {
   Random random;
   constexpr double speed = 5.0;
   constexpr double radius = 0.004;
-  for (const char* material : {"power_cable", "rope", "silicone_tube"}) {
+  const std::array<const char*, 3> materials{"power_cable", "rope", "silicone_tube"};
+  for (int i = 0; i < 4 * static_cast<int>(materials.size()); ++i) {
+    const char* const material = materials[static_cast<std::size_t>(i) % materials.size()];
     for (const int edges : {40, 100}) {
-      SCOPED_TRACE(std::string(material) + " of " + std::to_string(edges) + " edges");
+      SCOPED_TRACE(std::string(material) + " of " + std::to_string(edges) + " edges, draw " +
+                   std::to_string(i));
       Rods rods;
       rods.add(straight(Vector3d(0.1, -0.25, 0.0) + random.in_cube(0.02),
                         Vector3d(0.1, 0.25, 0.0) + random.in_cube(0.02), edges),
@@ -218,9 +222,9 @@ TEST(MovingObstacles, DoNotStayBehindFibersThatAreFree) {
                       contacts_with_moving({going(BoxShape{Vector3d(0.1, 0.1, 0.3)},
                                                   {-0.02, 0.0, 0.0}, {speed, 0.0, 0.0})},
                                            0.4));
-      for (int i = 0; i < 24; ++i) {
+      for (int n = 0; n < 24; ++n) {
         stepper.step(1.0 / 240.0);
-        EXPECT_FALSE(stepper.moving_obstacles()->longest_lag(stepper.time()).has_value()) << i;
+        EXPECT_FALSE(stepper.moving_obstacles()->longest_lag(stepper.time()).has_value()) << n;
       }
       double mass = 0.0;
       for (const double each : rods.masses) {

@@ -10,6 +10,10 @@ struct EdgePart {
   double first = 0.0;
   double last = 1.0;
 
+  static constexpr EdgePart whole() { return {0.0, 1.0}; }
+  static constexpr EdgePart first_node() { return {0.0, 0.0}; }
+  static constexpr EdgePart last_node() { return {1.0, 1.0}; }
+
   bool is_point() const { return first == last; }
 
   /// The parameter on the edge of that on the part.
@@ -26,9 +30,5 @@ struct EdgePart {
     }
   }
 };
-
-constexpr EdgePart whole_edge{0.0, 1.0};
-constexpr EdgePart first_node{0.0, 0.0};
-constexpr EdgePart last_node{1.0, 1.0};
 
 }  // namespace fiber

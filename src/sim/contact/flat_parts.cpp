@@ -32,11 +32,18 @@ EdgePart part_in_circle(double radius, const Vector3d& p0, const Vector3d& p1) {
   return {middle - half, middle + half};
 }
 
-/// The part over the straight lines of a round side, which go from z = −half to half.
-EdgePart part_along_axis(double half, const Vector3d& p0, const Vector3d& p1) {
+/// The part that is nearest to a straight line between its ends.
+EdgePart part_along(const Vector3d& from, const Vector3d& to, const Vector3d& p0,
+                    const Vector3d& p1) {
+  const Vector3d way = to - from;
   EdgePart part;
-  keep_within(part, half, p0.z(), p1.z());
+  part.keep_positive(way.dot(p0 - from), way.dot(p1 - from));
+  part.keep_positive(way.dot(to - p0), way.dot(to - p1));
   return part;
+}
+
+EdgePart part_along_axis(double half, const Vector3d& p0, const Vector3d& p1) {
+  return part_along(-half * Vector3d::UnitZ(), half * Vector3d::UnitZ(), p0, p1);
 }
 
 }  // namespace
@@ -70,7 +77,11 @@ FlatParts parts_over_flats(const CylinderShape& cylinder, const Vector3d& p0, co
 FlatParts parts_over_flats(const ConeShape& cone, const Vector3d& p0, const Vector3d& p1) {
   FlatParts found;
   found.add(part_in_circle(cone.radius, p0, p1));
-  found.add(part_along_axis(0.5 * cone.height, p0, p1));
+  // The line of its side that goes up inwards as the edge does.
+  Vector3d outwards = p1.z() > p0.z() ? Vector3d(p0 - p1) : Vector3d(p1 - p0);
+  outwards.z() = 0.0;
+  const Vector3d apex = 0.5 * cone.height * Vector3d::UnitZ();
+  found.add(part_along(cone.radius * outwards.stableNormalized() - apex, apex, p0, p1));
   return found;
 }
 
@@ -89,11 +100,9 @@ FlatParts parts_over_flats(const TriangleCorners& triangle, const Vector3d& p0,
   for (std::size_t i = 0; i < 3; ++i) {
     const Vector3d& from = triangle[i];
     const Vector3d& to = triangle[(i + 1) % 3];
-    const Vector3d edge = to - from;
-    const Vector3d inwards = normal.cross(edge);
+    const Vector3d inwards = normal.cross(to - from);
     over_face.keep_positive(inwards.dot(p0 - from), inwards.dot(p1 - from));
-    along[i].keep_positive(edge.dot(p0 - from), edge.dot(p1 - from));
-    along[i].keep_positive(edge.dot(to - p0), edge.dot(to - p1));
+    along[i] = part_along(from, to, p0, p1);
   }
   found.add(over_face);
   for (const EdgePart& part : along) {

@@ -314,7 +314,9 @@ void EnvironmentContact::add(const Rods& rods, const Contact& contact, double wi
          -contact.normal,
          {fibers_.points()[std::size_t{2} * edge], fibers_.points()[std::size_t{2} * edge + 2]}});
   }
-  const EdgePart part = is_edge ? whole_edge : is_last ? last_node : first_node;
+  const EdgePart part = is_edge   ? EdgePart::whole()
+                        : is_last ? EdgePart::last_node()
+                                  : EdgePart::first_node();
   add_obstacle_contacts(shape, rods, rod, edge, part, options_, within, found.obstacle_contacts);
 }
 

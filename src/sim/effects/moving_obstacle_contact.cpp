@@ -92,7 +92,8 @@ class MovingObstacleContact::Finder {
       const Vector3d& p0 = rods_.positions[node];
       if (!is_allowed(2 * (node - first)) && is_near(shape, p0, p0, within)) {
         const bool is_last = node == last;
-        add(shape, rod, is_last ? node - 1 : node, is_last ? last_node : first_node, within);
+        add(shape, rod, is_last ? node - 1 : node,
+            is_last ? EdgePart::last_node() : EdgePart::first_node(), within);
       }
       if (node == last || !has_edges || is_allowed(2 * (node - first) + 1)) {
         continue;
@@ -100,7 +101,7 @@ class MovingObstacleContact::Finder {
       const Vector3d& p1 = rods_.positions[node + 1];
       if (is_near(shape, p0, p1, within)) {
         found_.obstacle_edges.push_back({rod, node, &shape, 0.0, p0, p0, {p0, p1}});
-        add(shape, rod, node, whole_edge, within);
+        add(shape, rod, node, EdgePart::whole(), within);
       }
     }
   }
