@@ -21,6 +21,10 @@ void add_obstacle_contacts(const ObstacleShape& shape, const Rods& rods, std::ui
     found.push_back({rod, edge, of_edge, point, barrier, options.restitution, piece});
   };
   const auto add_piece = [&](const ObstaclePiece& piece) {
+    if (part.is_point()) {
+      add(piece, part, 0.0);
+      return;
+    }
     const std::optional<double> middle = piece.middle_of_flat(p0, p1);
     if (middle && piece.distance_from((1.0 - *middle) * p0 + *middle * p1).distance <= within) {
       add(piece, part, middle);

@@ -145,18 +145,17 @@ double bounded_share(const ObstacleContact& contact, const ObstacleDistance& dis
                      const MovedShape& shape, const std::vector<Vector3d>& positions,
                      const std::vector<Vector3d>& displacements, double part, double share) {
   const double max_loss = part * (distance.nearest.distance - contact.barrier.min_distance());
-  const bool is_point = contact.part.is_point() || contact.point;
   const double s = contact.part.on_edge(distance.s);
   const auto ends_of_contact = [&](const std::vector<Vector3d>& values) {
-    return is_point ? std::array<Vector3d, 2>{point_at(values, contact.edge, s),
-                                              point_at(values, contact.edge, s)}
-                    : contact.ends(values);
+    return contact.point ? std::array<Vector3d, 2>{point_at(values, contact.edge, s),
+                                                   point_at(values, contact.edge, s)}
+                         : contact.ends(values);
   };
   const std::array<Vector3d, 2> ends = ends_of_contact(positions);
   const std::array<Vector3d, 2> whole = ends_of_contact(displacements);
   for (int i = 0; i < max_halvings && share > 0.0; ++i) {
     const MovedShape::RelativeMotion motion = shape.relative_motion(ends, whole, share);
-    if (!is_point) {
+    if (!contact.point) {
       const double floor = distance.nearest.distance - max_loss + motion.deviation;
       if (longest_of(motion.ways) + motion.deviation <= max_loss ||
           stays_above(floor, distance, ends[1] - ends[0], motion.ways)) {

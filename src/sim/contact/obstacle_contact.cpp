@@ -177,7 +177,7 @@ Smoothstep weight_factor(const ObstacleContact& contact, const ObstacleDistance&
 /// distance grows there: like that of a parabola through what the farther end's is.
 double turning_of(const ObstacleContact& contact, const ObstacleDistance& distance,
                   double pressure) {
-  if (contact.part.is_point() || contact.point) {
+  if (contact.point) {
     return 0.0;
   }
   const double length = contact.part.last - contact.part.first;
@@ -307,7 +307,7 @@ double bounded_share(const ObstacleContact& contact, const ObstacleDistance& dis
                      const std::vector<Vector3d>& positions,
                      const std::vector<Vector3d>& displacements, double part, double share) {
   const double max_loss = part * (distance.nearest.distance - contact.barrier.min_distance());
-  if (contact.part.is_point() || contact.point) {
+  if (contact.point) {
     const double s = contact.part.on_edge(distance.s);
     const double approach =
         -distance.nearest.gradient.dot(point_at(displacements, contact.edge, s));

@@ -98,7 +98,7 @@ struct ObstacleContact {
   std::uint32_t rod;
   std::uint32_t edge;  ///< as Rods counts edges
   EdgePart part;
-  std::optional<double> point;  ///< of the part that touches; none for the nearest
+  std::optional<double> point;  ///< of the part, that touches; none for the nearest of an edge
   Barrier barrier;
   double restitution;  ///< of impacts, in [0, 1]
   ObstaclePiece piece;
