@@ -55,7 +55,11 @@ SectionEntry read_section(const YamlField& entry, const FiberBody& body) {
   const auto rigid = entry.find("rigid");
   section.is_rigid = rigid && rigid->flag();
   const bool has_other = section.radius || section.is_rigid;
-  const auto given = has_other ? entry.find("material") : std::make_optional(entry.get("material"));
+  const auto given = entry.find("material");
+  if (!has_other && !given) {
+    throw std::invalid_argument(
+        entry.place() + " changes nothing: a section has a material, a radius, or is rigid");
+  }
   std::string inherited;
   const RodMaterial material =
       given ? read_material(*given, body.material, inherited) : body.material;

@@ -54,7 +54,9 @@ TEST_F(SimSceneTest, SectionsThatCannotBeAreErrors) {
       {"{from: -0.1, material: hair}",
        "4: fibers[0].sections[0].from is -0.1, it must be at least 0 and less than the fibre's "
        "length, 1 m (fibre 'cable')"},
-      {"{from: 0.2}", "4: fibers[0].sections[0] has no key 'material' (fibre 'cable')"},
+      {"{from: 0.2}",
+       "4: fibers[0].sections[0] changes nothing: a section has a material, a radius, or is rigid "
+       "(fibre 'cable')"},
       {"{from: 0.2, material: {density: -1}}",
        "4: fibers[0].sections[0].material: density is -1.000000, it must be positive and finite "
        "(fibre 'cable')"},
