@@ -1,5 +1,7 @@
 #include "src/sim/contact/add_obstacle_contacts.hpp"
 
+#include <functional>
+
 namespace fiber {
 
 using Eigen::Vector3d;
@@ -37,7 +39,7 @@ void add_obstacle_contacts(const ObstacleShape& shape, const Rods& rods, std::ui
   if (shape.is_convex()) {
     add_piece(ObstaclePiece(shape, {}));
   } else {
-    visit_near_pieces(shape, p0, p1, within, add_piece);
+    visit_near_pieces(shape, p0, p1, within, std::cref(add_piece));
   }
 }
 
