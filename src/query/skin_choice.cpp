@@ -1,5 +1,7 @@
 #include "src/query/skin_choice.hpp"
 
+#include <tbb/task_arena.h>
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -97,6 +99,12 @@ void SkinChoice::decide(const FiberAssembly& fibers, const Estimate& estimate) {
     return;
   }
   is_due_ = false;
+  // While its estimates wait for other threads, this one must not begin with another query: that
+  // would ask for a choice as well, and wait for itself.
+  tbb::this_task_arena::isolate([&] { choose(fibers, estimate); });
+}
+
+void SkinChoice::choose(const FiberAssembly& fibers, const Estimate& estimate) {
   double best = 0.0;
   double least = (1.0 - least_gain) * cost(0.0, fibers, estimate(0.0));
   const auto is_better = [&](double frames) {

@@ -82,6 +82,7 @@ class SkinChoice {
   void give_up() { are_too_many_ = true; }
 
  private:
+  void choose(const FiberAssembly& fibers, const Estimate& estimate);
   double cost(double frames, const FiberAssembly& fibers, const SearchSize& search) const;
   double motion_of_most(const FiberAssembly& fibers, const std::vector<double>& moved);
   double skin_of(double frames) const;

@@ -2,15 +2,18 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <set>
 #include <thread>
 
 #include "fiber_proximity/paper/paper_engines.hpp"
 #include "fiber_proximity/query/engine.hpp"
+#include "src/query/run_tree_engine.hpp"
 #include "test/support/answers.hpp"
 #include "test/support/assemblies.hpp"
 #include "test/support/contacts.hpp"
 #include "test/support/engines_test.hpp"
+#include "test/support/rounds.hpp"
 
 namespace fiber::test {
 namespace {
@@ -65,6 +68,47 @@ TEST_P(ConcurrentQueriesTest, AreAnsweredAsOneAfterAnother) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Engines, ConcurrentQueriesTest, all_engines(), name_of_engine);
+
+/// One of them chooses the skin, for all.
+TEST(ConcurrentQueries, AreAnsweredWhileASkinIsChosen) {
+  SCOPED_TRACE(seed_message());
+  Random random;
+  AssemblyBuilder builder;
+  for (int fiber = 0; fiber < 600; ++fiber) {
+    builder.add_fiber(random_walk(random, 20, 0.05));
+  }
+  FiberAssembly fibers = builder.build({0.002});
+  const QueryOptions options = within(0.01, QueryType::ALL);
+  // More than may work at the same time: those that work take up what the others ask.
+  constexpr int thread_count = 6;
+  constexpr int frames = 4;
+  std::uint64_t served = 0;
+  for (int round = 0; round < rounds(40); ++round) {
+    RunTreeEngine engine({2});
+    for (int frame = 0; frame < frames; ++frame) {
+      engine.update(fibers);
+      std::vector<QueryResult> found(thread_count);
+      std::vector<std::thread> threads;
+      threads.reserve(thread_count);
+      for (QueryResult& result : found) {
+        // Most come while the first one is at it.
+        threads.emplace_back([&, wait = std::chrono::microseconds(random.integer(0, 500))] {
+          std::this_thread::sleep_for(wait);
+          engine.query(options, result);
+        });
+      }
+      for (std::thread& thread : threads) {
+        thread.join();
+      }
+      EXPECT_FALSE(found.front().contacts.empty());
+      for (const QueryResult& result : found) {
+        ASSERT_TRUE(same_contacts(result.contacts, found.front().contacts)) << "round " << round;
+      }
+    }
+    served += frames - engine.refit_count();
+  }
+  EXPECT_GT(served, 0U);
+}
 
 TEST(PaperEngines, AreThereOnceWhoeverRegistersThem) {
   std::vector<std::thread> threads;
