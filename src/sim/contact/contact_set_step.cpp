@@ -90,11 +90,13 @@ std::vector<Impact> ContactSet::find_impacts(const Rods& rods,
     if (energies_[i] == 0.0) {
       continue;
     }
-    double force = 0.0;  // along the normals of all points of what may be returned [N]
+    // What a contact may give back is what its points press with. Slopes are more where others
+    // pull: two edges beside the node between them share what it would press with.
+    double pressure = 0.0;  // of all points [N]
     if (may_return(i)) {
       for_each_term(rods, i, buffer,
                     [&](const ContactPoints& /*points*/, const DistanceTerm& term) {
-                      force += std::max(0.0, -term.slope);
+                      pressure += std::max(0.0, term.pressure);
                     });
     }
     for_each_term(rods, i, buffer, [&](const ContactPoints& points, const DistanceTerm& term) {
@@ -110,9 +112,8 @@ std::vector<Impact> ContactSet::find_impacts(const Rods& rods,
       if (impact.has_begun) {
         impact.separation = restitution_of(i) * approach;
       } else if (may_return(i)) {
-        impact.returnable = step_ * std::max(0.0, -term.slope);
-        impact.step_friction =
-            force > 0.0 ? Vector3d(impact.returnable / force * frictions[i]) : Vector3d::Zero();
+        impact.returnable = step_ * term.pressure;
+        impact.step_friction = impact.returnable / pressure * frictions[i];
         impact.max_separation = std::max(0.0, -approach);
       }
       is_any_of_impact |= impact.has_begun || impact.returnable > 0.0;

@@ -146,5 +146,25 @@ TEST(ShippedOutcome, TheRubberBandHoldsThePosts) {
   }
 }
 
+/// Also where a cable falls on bends of itself, whose edges share contacts, and gives back what
+/// they were pressed together by.
+TEST(ShippedOutcome, FrictionInAPileIsWithinCoulombsCone) {
+  constexpr double coefficient = 0.4;  // as the scene has it
+  SimScene scene = shipped("pile");
+  std::size_t sliding = 0;
+  while (scene.stepper->time() < 0.6) {
+    scene.advance();
+    for (const RodForces::ContactForce& force : scene.stepper->forces().contacts) {
+      const double normal = force.normal_force.norm();
+      const double friction = force.friction_force.norm();
+      ASSERT_LE(friction, 1.02 * coefficient * normal + 1e-6)
+          << "edges " << force.edge << " and " << force.other_edge << " at "
+          << scene.stepper->time() << " s";
+      sliding += friction > 0.98 * coefficient * normal ? 1 : 0;
+    }
+  }
+  EXPECT_GT(sliding, 1000U);
+}
+
 }  // namespace
 }  // namespace fiber
