@@ -4,8 +4,10 @@
 #include <chrono>
 #include <cmath>
 #include <exception>
+#include <numeric>
 #include <optional>
 
+#include "src/sim/scene/keys.hpp"
 #include "src/sim/scene/parts.hpp"
 #include "src/sim/scene/reach.hpp"
 #include "src/text/quote.hpp"
@@ -214,18 +216,37 @@ void warn_of_obstacle_lag(const SimScene& scene, std::vector<SimWarning>& warnin
   }
 }
 
+/// What brings a fibre into balance that goes far in a step: a thin one that slides over something
+/// round comes along it by parts of its radius in an iteration. Empty for others.
+std::string mend_of_balance(const SimScene& scene, const IslandReport& worst) {
+  constexpr double usual_way = 25.0;  // radii
+  const Rods& rods = scene.stepper->rods();
+  const double speed = std::accumulate(
+      rods.velocities.begin() + rods.first(worst.rod),
+      rods.velocities.begin() + rods.end(worst.rod), 0.0,
+      [](double most, const auto& velocity) { return std::max(most, velocity.norm()); });
+  const double way = speed * scene.step_length() / rods.radii[worst.rod];
+  const double substeps = std::ceil(way / usual_way * scene.substeps);
+  if (!(way > usual_way && substeps <= static_cast<double>(max_substeps))) {
+    return {};
+  }
+  return format("; it goes ", way, " of its radii in a step, and with `substeps: ", substeps,
+                "` no more than ", usual_way);
+}
+
 void warn_of_balance(const SimScene& scene, std::vector<SimWarning>& warnings) {
   const StepReport& report = scene.frame;
   if (report.unbalanced == 0 || scene.asks_for_few_iterations()) {
     return;
   }
   const IslandReport& worst = report.worst;
-  warnings.push_back({SimWarning::Kind::BALANCE,
-                      format("forces do not balance within ", scene.options.max_iterations,
-                             " iterations: what is left at node ", worst.node, " of fibre ",
-                             quote(scene.fiber_names[worst.rod]), " would change its speed by ",
-                             worst.residual, " m/s a step, ", scene.residual_force(worst),
-                             " N; `residual` is ", scene.options.residual, " m/s")});
+  warnings.push_back(
+      {SimWarning::Kind::BALANCE,
+       format("forces do not balance within ", scene.options.max_iterations,
+              " iterations: what is left at node ", worst.node, " of fibre ",
+              quote(scene.fiber_names[worst.rod]), " would change its speed by ", worst.residual,
+              " m/s a step, ", scene.residual_force(worst), " N; `residual` is ",
+              scene.options.residual, " m/s", mend_of_balance(scene, worst))});
 }
 
 }  // namespace

@@ -47,6 +47,43 @@ TEST_F(SimSceneTest, ReportsWhatToExpect) {
   EXPECT_NE(slow.warnings[1].find("expect it to fall behind"), std::string::npos);
 }
 
+/// A thin rope slides off a post, a hundred of its radii in a step. With the substeps that warnings
+/// ask for it balances.
+TEST_F(SimSceneTest, WarningsNameTheSubstepsThatBalanceThinFibres) {
+  const std::string scene =
+      "fibers: [{name: a, material: rope, radius: 1.0e-5, segments: 50, shape: {line: {from: "
+      "[-0.04, 0, 0.003], to: [0.06, 0, 0.003]}}}]\n"
+      "environment: {obstacles: [{id: post, pose: {orientation: [0.7071068, 0, 0, 0.7071068]}, "
+      "primitives: [{type: cylinder, dimensions: [0.2, 0.002]}]}]}\n"
+      "effects: [gravity, stretch, bend, environment_contact, friction: {coefficient: 0.3}]\n"
+      "integrator: bdf2\n";
+  constexpr std::uint32_t frames = 40;
+  std::uint32_t substeps = 0;
+  std::uint32_t unbalanced = 0;
+  SimScene coarse = read(scene);
+  for (std::uint32_t i = 0; i < frames; ++i) {
+    coarse.advance();
+    unbalanced += coarse.frame.unbalanced;
+    for (const SimWarning& warning : frame_warnings(coarse)) {
+      const std::string asked = "of its radii in a step, and with `substeps: ";
+      const std::size_t place = warning.text.find(asked);
+      if (place != std::string::npos) {
+        const int named = std::stoi(warning.text.substr(place + asked.size()));
+        substeps = std::max(substeps, static_cast<std::uint32_t>(named));
+      }
+    }
+  }
+  EXPECT_GT(unbalanced, frames);
+  ASSERT_GT(substeps, 4U);
+  SimScene fine = read(scene + "substeps: " + std::to_string(substeps) + "\n");
+  unbalanced = 0;
+  for (std::uint32_t i = 0; i < frames; ++i) {
+    fine.advance();
+    unbalanced += fine.frame.unbalanced;
+  }
+  EXPECT_LE(100 * unbalanced, frames * substeps);
+}
+
 TEST_F(SimSceneTest, ReportsWhatASceneLeavesOut) {
   const auto warnings = [&](const std::string& effects, const std::string& more = "") {
     return sentences(omissions(read(scene_text(line, effects, more))));
