@@ -1,9 +1,12 @@
+#include <tbb/task_arena.h>
+
 #include <limits>
 #include <map>
 #include <string>
 
 #include "benchmark/environment/cell_checker.hpp"
 #include "src/query/run_tree_engine.hpp"
+#include "src/query/threads.hpp"
 
 namespace fiber {
 namespace {
@@ -12,7 +15,9 @@ class OwnChecker final : public CellChecker {
  public:
   OwnChecker(const std::vector<EnvironmentObject>& objects, const FiberAssembly& cables,
              const CellQuestions& questions)
-      : cables_(cables), engine_({questions.threads, 0.0}) {
+      : cables_(cables),
+        engine_({questions.threads, 0.0}),
+        arena_(arena_concurrency(questions.threads)) {
     std::vector<ObjectChange> changes;
     for (const EnvironmentObject& object : objects) {
       changes.push_back({ObjectChange::Operation::ADD, object});
@@ -32,8 +37,8 @@ class OwnChecker final : public CellChecker {
   }
   void move_cables(const FiberAssembly& cables) override { engine_.update(cables); }
   void find_self_contacts() override { engine_.query(all_, self_contacts_); }
-  void find_contacts() override { environment_->query(cables_, all_, {}, contacts_); }
-  void find_nearest() override { environment_->query(cables_, closest_, {}, nearest_); }
+  void find_contacts() override { ask(all_, contacts_); }
+  void find_nearest() override { ask(closest_, nearest_); }
 
   CellAnswer answer() const override {
     CellAnswer answer;
@@ -57,11 +62,16 @@ class OwnChecker final : public CellChecker {
   }
 
  private:
+  void ask(const QueryOptions& options, QueryResult& result) {
+    arena_.execute([&] { environment_->query(cables_, options, {}, result); });
+  }
+
   const FiberAssembly& cables_;
   std::map<std::string, std::uint32_t> places_;  // in the cell's order
   World world_;
   std::shared_ptr<const Environment> environment_;
   RunTreeEngine engine_;
+  tbb::task_arena arena_;
   QueryOptions all_;
   QueryOptions closest_;
   QueryResult self_contacts_;

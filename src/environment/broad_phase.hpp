@@ -25,16 +25,22 @@ struct SegmentRun {
   double radius = 0.0;  // the largest [m]
 };
 
-/// Calls look(run) for each run of the fibres' segments, until the query is done().
+/// Calls look(run) for each run of the fibres' segments that begins at one of these points, until
+/// the query is done().
 /// @tparam Query says how many segments a run has, what box the axes from a point to another are in
 ///               and how thick a segment is
 template <class Query, class Look>
-void for_each_run(const FiberAssembly& fibers, Query& query, const Look& look) {
-  for (std::uint32_t fiber = 0; fiber < fibers.fiber_count(); ++fiber) {
-    const std::uint32_t last = fibers.offsets()[fiber + 1] - 1;
-    for (std::uint32_t first = fibers.offsets()[fiber]; first < last && !query.done();
-         first += Query::segments_per_run) {
-      SegmentRun run{fiber, first, std::min(first + Query::segments_per_run, last), {}};
+void for_each_run(const FiberAssembly& fibers, PointRange points, Query& query, const Look& look) {
+  constexpr std::uint32_t length = Query::segments_per_run;
+  const std::vector<std::uint32_t>& offsets = fibers.offsets();
+  const auto after = std::upper_bound(offsets.begin(), offsets.end(), points.begin);
+  for (auto fiber = static_cast<std::uint32_t>(after - offsets.begin()) - 1;
+       fiber < fibers.fiber_count() && offsets[fiber] < points.end && !query.done(); ++fiber) {
+    const std::uint32_t last = offsets[fiber + 1] - 1;
+    const std::uint32_t before = std::max(points.begin, offsets[fiber]) - offsets[fiber];
+    for (std::uint32_t first = offsets[fiber] + (before + length - 1) / length * length;
+         first < std::min(last, points.end) && !query.done(); first += length) {
+      SegmentRun run{fiber, first, std::min(first + length, last), {}};
       run.box = query.box_of(run.begin, run.end);
       for (std::uint32_t point = run.begin; point < run.end; ++point) {
         run.radius = std::max(run.radius, query.radius_of(point));
@@ -42,6 +48,11 @@ void for_each_run(const FiberAssembly& fibers, Query& query, const Look& look) {
       look(run);
     }
   }
+}
+
+/// All points of the fibres.
+inline PointRange all_points(const FiberAssembly& fibers) {
+  return {0, static_cast<std::uint32_t>(fibers.point_count())};
 }
 
 /// Finds the shapes near a box: those that end somewhere in FCL's dynamic AABB tree, the others are

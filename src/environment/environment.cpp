@@ -1,5 +1,7 @@
 #include "fiber_proximity/environment/environment.hpp"
 
+#include <tbb/task_arena.h>
+
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
@@ -10,10 +12,14 @@
 #include "fiber_proximity/query/motion.hpp"
 #include "src/environment/allowed_contacts.hpp"
 #include "src/environment/broad_phase.hpp"
+#include "src/query/search_jobs.hpp"
 #include "src/text/quote.hpp"
 
 namespace fiber {
 namespace {
+
+constexpr std::uint32_t points_per_job = 512;  // more than it takes to wake a thread for
+constexpr std::uint32_t worth_several_threads = 4 * points_per_job;
 
 /// The contact of a segment (a) and a shape (b); which segment it is is left open.
 Contact contact_of(const Capsule& capsule, const WorldShape& shape, const AxisDistance& axis) {
@@ -33,28 +39,40 @@ Contact contact_of(const Capsule& capsule, const WorldShape& shape, const AxisDi
   return contact;
 }
 
-/// One query of an environment: decides which pairs of segments and shapes are contacts.
+/// One query of an environment, or a part of one: decides which pairs of segments and shapes are
+/// contacts.
 class EnvironmentQuery {
  public:
   /// Holds references: they must outlive it.
-  EnvironmentQuery(const FiberAssembly& fibers, const std::vector<EnvironmentObject>& objects,
-                   const QueryOptions& options, const AllowedPairs& allowed, QueryResult& result)
+  EnvironmentQuery(const FiberAssembly& fibers, const QueryOptions& options,
+                   const AllowedParts& allowed, QueryResult& result)
       : accumulator_(options, result),
+        options_(options),
         fibers_(fibers),
-        allowed_(allowed, objects),
-        counts_(result.counts) {}
+        allowed_(allowed),
+        result_(result) {}
+
+  /// A part, see ContactAccumulator.
+  EnvironmentQuery(const EnvironmentQuery& whole, QueryResult& result)
+      : accumulator_(whole.accumulator_, result),
+        options_(whole.options_),
+        fibers_(whole.fibers_),
+        allowed_(whole.allowed_),
+        result_(result) {}
+  EnvironmentQuery(const EnvironmentQuery&) = delete;
+  EnvironmentQuery& operator=(const EnvironmentQuery&) = delete;
 
   /// Considers the pairs of a run and a shape.
   /// @return [m] shapes further than this from the axes of the run do not matter from now on; minus
   ///         infinity when the query is done
   double offer(const SegmentRun& run, const WorldShape& shape) {
-    ++counts_.node_tests;
+    ++result_.counts.node_tests;
     const double bound = accumulator_.bound_of(run.fiber, shape.object);
     if (run.box.exteriorDistance(shape.box) > std::max(bound + run.radius, 0.0)) {
       accumulator_.leave_out(bound);
       return reach_of(run);
     }
-    ++counts_.node_overlaps;
+    ++result_.counts.node_overlaps;
     for (std::uint32_t point = run.begin; point < run.end; ++point) {
       if (accumulator_.done()) {
         return -std::numeric_limits<double>::infinity();
@@ -75,7 +93,23 @@ class EnvironmentQuery {
   }
   double radius_of(std::uint32_t point) const { return fibers_.segment_radius(point); }
 
+  // As SearchJobs asks for them.
+  std::uint64_t pairs_taken() const { return accumulator_.pairs_taken(); }
+  std::uint64_t pairs_left() const { return accumulator_.pairs_left(); }
+  bool lacks_pairs() const { return accumulator_.lacks_pairs(); }
+  bool wants_any() const { return options_.type == QueryType::FIRST; }
   bool done() { return accumulator_.done(); }
+  bool done_by_now() { return accumulator_.done_by_now(); }
+  void absorb(const EnvironmentQuery& part) {
+    for (const Contact& contact : part.accumulator_.contacts()) {
+      accumulator_.keep(contact);
+    }
+    accumulator_.absorb(part.accumulator_);
+  }
+
+  /// Whether what is found makes others not matter.
+  bool shrinks() const { return options_.type != QueryType::ALL || accumulator_.lowers_bound(); }
+  void stop() { accumulator_.stop(); }
   void finish() { accumulator_.finish(-std::numeric_limits<double>::infinity()); }
 
  private:
@@ -96,7 +130,7 @@ class EnvironmentQuery {
     if (!accumulator_.takes_pair()) {
       return;
     }
-    ++counts_.primitive_tests;
+    ++result_.counts.primitive_tests;
     const AxisDistance axis = axis_distance(shape.shape, shape.to_shape * capsule.p0,
                                             shape.to_shape * capsule.p1, within);
     if (axis.distance == std::numeric_limits<double>::infinity()) {
@@ -114,9 +148,10 @@ class EnvironmentQuery {
   }
 
   ContactAccumulator accumulator_;
+  const QueryOptions& options_;
   const FiberAssembly& fibers_;
-  AllowedParts allowed_;
-  QueryCounts& counts_;
+  const AllowedParts& allowed_;
+  QueryResult& result_;
 };
 
 /// A segment and a shape of this object, of which the index is that of the contact.
@@ -154,12 +189,36 @@ void Environment::query(const FiberAssembly& fibers, const QueryOptions& options
   validate(options);
   result.counts = QueryCounts();
   result.complete = true;
-  EnvironmentQuery query(fibers, objects_, options, allowed, result);
-  for_each_run(fibers, query, [&](const SegmentRun& run) {
+  const AllowedParts parts(allowed, objects_);
+  EnvironmentQuery whole(fibers, options, parts, result);
+  const auto offer = [&](EnvironmentQuery& query, const SegmentRun& run) {
     broad_phase_->visit_near(run.box,
                              [&](const WorldShape& shape) { return query.offer(run, shape); });
-  });
-  query.finish();
+  };
+  const auto alone = [&](std::uint32_t begin, std::uint32_t end) {
+    for_each_run(fibers, {begin, end}, whole, [&](const SegmentRun& run) { offer(whole, run); });
+  };
+  const PointRange all = all_points(fibers);
+  if (all.end < worth_several_threads) {
+    alone(all.begin, all.end);
+  } else {
+    SearchJobs<EnvironmentQuery>().search(
+        whole, all.end, points_per_job, whole.shrinks() ? points_per_job : all.end,
+        // While it waits, a thread must not begin with another query of whoever asked this one.
+        [](const auto& work) { tbb::this_task_arena::isolate(work); },
+        [&](SearchJob<EnvironmentQuery>& job, QueryCounts& /*counts*/, std::uint32_t begin,
+            std::uint32_t end) {
+          for_each_run(fibers, {begin, end}, job.part(), [&](const SegmentRun& run) {
+            if (job.goes_on(16)) {
+              offer(job.part(), run);
+            } else {
+              job.part().stop();
+            }
+          });
+        },
+        alone);
+  }
+  whole.finish();
 }
 
 Contact Environment::contact(const Capsule& segment, std::uint32_t object,

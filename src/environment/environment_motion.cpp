@@ -277,7 +277,7 @@ void Environment::query_motion(const std::vector<ObjectPath>& paths, const Fiber
   }
   EnvironmentMotion query(motion, broad_phase_->shapes(), moving ? &*moving : nullptr, objects_,
                           options, allowed);
-  for_each_run(motion.before, query, [&](const SegmentRun& run) {
+  for_each_run(motion.before, all_points(motion.before), query, [&](const SegmentRun& run) {
     if (!moving || !moving->are_all()) {
       broad_phase_->visit_near(run.box, [&](const WorldShape& shape) {
         return query.moves(shape) ? query.within(run.radius) : query.offer(run, shape);

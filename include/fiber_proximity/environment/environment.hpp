@@ -81,7 +81,8 @@ class Environment {
   /// object, segment_b that of the shape in it, t is 0. FIBER_PAIRS asks for the closest pair of
   /// each fibre and each object. The distance is that of the capsule's axis from the shape, less
   /// the radius; of axes inside of a solid that of the deepest point. Kernel and neighbour skips
-  /// do not apply.
+  /// do not apply. Many fibres are shared by all cores, or the threads of the arena this is called
+  /// in; the answer is the same on any number.
   /// @param allowed pairs that are left out
   /// @throws std::invalid_argument for options that do not validate
   void query(const FiberAssembly& fibers, const QueryOptions& options, const AllowedPairs& allowed,
