@@ -61,7 +61,7 @@ class LargeEnvironment : public testing::Test {
 TEST_F(LargeEnvironment, ReportsWhatBruteForceReportsOnAnyNumberOfThreads) {
   SCOPED_TRACE(seed_message());
   // Many short fibres, of which jobs have hundreds, and a few that are longer than a job.
-  for (const auto [count, most] : {std::pair(600, 20), std::pair(3, 4000)}) {
+  for (const auto& [count, most] : {std::pair(600, 20), std::pair(3, 4000)}) {
     const FiberAssembly fibers = random_fibers(random_, 1.0, count, most);
     const std::vector<Contact> pairs = all_pairs(fibers, objects_);
     for (const Asked& asked : all_kinds()) {
