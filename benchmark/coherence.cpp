@@ -9,6 +9,7 @@
 #include "benchmark/commands.hpp"
 #include "benchmark/measured_scene.hpp"
 #include "benchmark/options.hpp"
+#include "benchmark/peers/peer.hpp"
 #include "benchmark/report.hpp"
 #include "benchmark/scene_options.hpp"
 #include "benchmark/swaying.hpp"
@@ -26,59 +27,78 @@ struct CoherenceRequest {
   double moving = 1.0;   // part of the fibres
   std::vector<double> skins{0,    0.03, 0.06,
                             0.12, 0.24, 0.48};  // mean segment lengths, beside automatic
+  std::vector<std::string> engines;             // beside run_tree, and peers
   std::uint32_t frames = 60;
   std::uint32_t threads = 1;
   bool json = false;
 };
 
-/// run_tree with one skin, and the times it has taken.
-class SkinRun {
+/// An engine, and the times its frames have taken.
+class EngineFrames {
  public:
+  /// run_tree.
   /// @param skin_lengths mean segment lengths; none: the engine chooses
-  SkinRun(const std::optional<double>& skin_lengths, double segment_length, std::uint32_t threads)
-      : skin_lengths_(skin_lengths), engine_(options(skin_lengths, segment_length, threads)) {}
+  EngineFrames(const std::optional<double>& skin_lengths, double segment_length,
+               std::uint32_t threads)
+      : EngineFrames("run_tree", std::make_unique<RunTreeEngine>(
+                                     options(skin_lengths, segment_length, threads))) {
+    run_tree_ = static_cast<const RunTreeEngine*>(engine_.get());
+    skin_lengths_ = skin_lengths ? BenchmarkRow(*skin_lengths) : BenchmarkRow("automatic");
+  }
+
+  EngineFrames(const std::string& engine_name, std::uint32_t threads)
+      : EngineFrames(engine_name,
+                     make_bench_engine(engine_name, {threads, QueryOptions().margin})) {}
 
   std::string name() const {
-    std::ostringstream name;
-    name << "skin ";
-    if (skin_lengths_) {
-      name << *skin_lengths_;
-    } else {
-      name << "automatic";
-    }
-    return name.str();
+    return engine_name_ + (run_tree_ != nullptr ? " with skin " + skin_lengths_.dump() : "");
   }
 
   /// Updates and finds all there is, so that frames find memory and candidates.
   void warm_up(const FiberAssembly& fibers, QueryResult& result) {
-    engine_.update(fibers);
-    engine_.query(QueryOptions(), result);
-    refits_before_ = engine_.refit_count();
-    partial_before_ = engine_.partial_count();
+    engine_->update(fibers);
+    engine_->query(QueryOptions(), result);
+    if (run_tree_ != nullptr) {
+      refits_before_ = run_tree_->refit_count();
+      partial_before_ = run_tree_->partial_count();
+    }
   }
 
   void measure_frame(const FiberAssembly& fibers, QueryResult& result) {
-    update_ms_.push_back(time_of([&] { engine_.update(fibers); }));
-    detect_ms_.push_back(time_of([&] { engine_.query(QueryOptions(), result); }));
+    update_ms_.push_back(time_of([&] { engine_->update(fibers); }));
+    detect_ms_.push_back(time_of([&] { engine_->query(QueryOptions(), result); }));
     pairs_ = result.contacts.size();
     counts_ += result.counts;
   }
 
-  BenchmarkRow skin_lengths() const {
-    return skin_lengths_ ? BenchmarkRow(*skin_lengths_) : BenchmarkRow("automatic");
+  /// @param segments of the fibres
+  BenchmarkRow row(double segments) const {
+    BenchmarkRow row{
+        {"engine", engine_name_},
+        {"skin_lengths", skin_lengths_},
+        {"threads", engine_->facts().thread_count},
+        {"update_ms", mean(update_ms_)},
+        {"detect_ms", mean(detect_ms_)},
+        {"cycle_ms", mean(update_ms_) + mean(detect_ms_)},
+        {"pairs", pairs_},
+        {"node_tests", counts_.node_tests},
+        {"primitive_tests", counts_.primitive_tests},
+        {"bytes_per_segment", static_cast<double>(engine_->facts().memory_bytes) / segments},
+        {"skin", nullptr},
+        {"refits", nullptr},
+        {"partial", nullptr}};
+    if (run_tree_ != nullptr) {
+      row["skin"] = run_tree_->skin();
+      row["refits"] = run_tree_->refit_count() - refits_before_;
+      row["partial"] = run_tree_->partial_count() - partial_before_;
+    }
+    return row;
   }
-  double skin() const { return engine_.skin(); }  ///< [m] at the end
-  std::uint32_t threads() const { return engine_.facts().thread_count; }
-  double update_ms() const { return mean(update_ms_); }
-  double detect_ms() const { return mean(detect_ms_); }
-  double cycle_ms() const { return update_ms() + detect_ms(); }
-  std::uint64_t refits() const { return engine_.refit_count() - refits_before_; }
-  std::uint64_t partial() const { return engine_.partial_count() - partial_before_; }
-  std::size_t memory_bytes() const { return engine_.facts().memory_bytes; }
-  std::size_t pairs() const { return pairs_; }
-  const QueryCounts& counts() const { return counts_; }
 
  private:
+  EngineFrames(std::string engine_name, std::unique_ptr<ProximityEngine> engine)
+      : engine_name_(std::move(engine_name)), engine_(std::move(engine)) {}
+
   static EngineOptions options(const std::optional<double>& skin_lengths, double segment_length,
                                std::uint32_t threads) {
     EngineOptions options;
@@ -89,8 +109,10 @@ class SkinRun {
     return options;
   }
 
-  const std::optional<double> skin_lengths_;
-  RunTreeEngine engine_;
+  const std::string engine_name_;
+  const std::unique_ptr<ProximityEngine> engine_;
+  const RunTreeEngine* run_tree_ = nullptr;  // the engine, where it has a skin to tell of
+  BenchmarkRow skin_lengths_;                // mean segment lengths, "automatic", or null
   std::uint64_t refits_before_ = 0;
   std::uint64_t partial_before_ = 0;
   std::vector<double> update_ms_;
@@ -102,7 +124,7 @@ class SkinRun {
 /// Frames before those that are measured: as many as the choice of a skin needs to begin with.
 constexpr std::uint32_t warm_up_frames = 4;
 
-/// A swaying scene, and run_tree on it with every skin.
+/// A swaying scene, and on it run_tree with every skin, and the other engines.
 class Coherence {
  public:
   explicit Coherence(const CoherenceRequest& request)
@@ -114,9 +136,12 @@ class Coherence {
         swaying_(fibers_, request.motion * segment_length_, request.scene_options.seed,
                  request.moving) {
     for (const double skin : request.skins) {
-      runs_.push_back(std::make_unique<SkinRun>(skin, segment_length_, request.threads));
+      runs_.push_back(std::make_unique<EngineFrames>(skin, segment_length_, request.threads));
     }
-    runs_.push_back(std::make_unique<SkinRun>(std::nullopt, segment_length_, request.threads));
+    runs_.push_back(std::make_unique<EngineFrames>(std::nullopt, segment_length_, request.threads));
+    for (const std::string& engine : request.engines) {
+      runs_.push_back(std::make_unique<EngineFrames>(engine, request.threads));
+    }
   }
 
   /// In turns, so that what slows the machine down for a while slows all of them; who goes first
@@ -130,7 +155,7 @@ class Coherence {
       }
       agreement_.begin_frame(frame);
       for (std::size_t turn = 0; turn < runs_.size(); ++turn) {
-        SkinRun& run = *runs_[(frame + turn) % runs_.size()];
+        EngineFrames& run = *runs_[(frame + turn) % runs_.size()];
         progress_.show("frame " + std::to_string(frame) + " of " +
                        std::to_string(warm_up_frames + request_.frames) + ": " + run.name());
         if (frame < warm_up_frames) {
@@ -152,7 +177,8 @@ class Coherence {
                 << " frame(s), the points of " << request_.moving << " of the fibres move by "
                 << motion_ << " segment lengths per frame\n";
     }
-    RowPrinter printer({{"skin", "skin_lengths"},
+    RowPrinter printer({"engine",
+                        {"skin", "skin_lengths"},
                         {"skin [m]", "skin"},
                         {"update [ms]", "update_ms"},
                         {"detect [ms]", "detect_ms"},
@@ -162,30 +188,19 @@ class Coherence {
                         "pairs"},
                        request_.json);
     for (const auto& run : runs_) {
-      printer.print({{"scene", request_.scene},
-                     {"scale", request_.scene_options.scale},
-                     {"seed", request_.scene_options.seed},
-                     {"shuffle", request_.scene_options.shuffle},
-                     {"frames", request_.frames},
-                     {"motion", motion_},
-                     {"moving", request_.moving},
-                     {"engine", "run_tree"},
-                     {"skin", run->skin()},
-                     {"skin_lengths", run->skin_lengths()},
-                     {"fibers", fibers_.fiber_count()},
-                     {"points", fibers_.point_count()},
-                     {"segments", fibers_.segment_count()},
-                     {"segment_length", segment_length_},
-                     {"threads", run->threads()},
-                     {"update_ms", run->update_ms()},
-                     {"detect_ms", run->detect_ms()},
-                     {"cycle_ms", run->cycle_ms()},
-                     {"refits", run->refits()},
-                     {"partial", run->partial()},
-                     {"pairs", run->pairs()},
-                     {"node_tests", run->counts().node_tests},
-                     {"primitive_tests", run->counts().primitive_tests},
-                     {"bytes_per_segment", static_cast<double>(run->memory_bytes()) / segments}});
+      BenchmarkRow row{{"scene", request_.scene},
+                       {"scale", request_.scene_options.scale},
+                       {"seed", request_.scene_options.seed},
+                       {"shuffle", request_.scene_options.shuffle},
+                       {"frames", request_.frames},
+                       {"motion", motion_},
+                       {"moving", request_.moving},
+                       {"fibers", fibers_.fiber_count()},
+                       {"points", fibers_.point_count()},
+                       {"segments", fibers_.segment_count()},
+                       {"segment_length", segment_length_}};
+      row.update(run->row(segments));
+      printer.print(row);
     }
   }
 
@@ -198,7 +213,7 @@ class Coherence {
   const double segment_length_;  // [m] mean
   const double motion_;          // mean segment lengths per frame
   Swaying swaying_;
-  std::vector<std::unique_ptr<SkinRun>> runs_;
+  std::vector<std::unique_ptr<EngineFrames>> runs_;
   Agreement agreement_;
   Progress progress_;
 };
@@ -220,8 +235,8 @@ void add_coherence_command(CLI::App& app, Command& command) {
   const auto request = std::make_shared<CoherenceRequest>();
   CLI::App* const coherence =
       add_subcommand(app, command, "coherence",
-                     "run_tree with the skin that it chooses and several others on a scene that "
-                     "moves a little in every frame; means over the "
+                     "run_tree with the skin that it chooses and several others, and other "
+                     "engines, on a scene that moves a little in every frame; means over the "
                      "frames, as most are cheap and those that look for candidates anew are dear",
                      request, run_coherence);
   add_scene_options(*coherence, request->scene, request->scene_options);
@@ -231,6 +246,9 @@ void add_coherence_command(CLI::App& app, Command& command) {
             CLI::Range(0.0, 1.0));
   add_values(*coherence, "--skins", request->skins,
              "in mean segment lengths, with commas between them", finite_number(0.0));
+  add_values(*coherence, "--engines", request->engines,
+             "beside run_tree, with commas between them, of " + join(engine_names()) +
+                 "; peers: " + join(all_peer_names()));
   add_count(*coherence, "--frames", request->frames, "to measure, after one to warm up");
   add_count(*coherence, "--threads", request->threads, "most threads to use");
   coherence->add_flag("--json", request->json, "JSON Lines instead of a table");

@@ -1,4 +1,4 @@
-"""What a skin is worth, fixed or chosen by the engine, on scenes whose points move a little in every frame."""
+"""What a skin is worth, fixed or chosen by the engine, on scenes whose points move a little in every frame; beside Embree."""
 
 import dataclasses
 
@@ -11,11 +11,13 @@ OTHERS = ("tress_a", "tress_b", "cloth", "soup")
 MOTION = 0.02  # mean segment lengths per frame
 SKINS = "0,0.06,0.09,0.12,0.18,0.24,0.48"  # mean segment lengths
 THREADS = 2
+PEER = "embree_refit"  # the fastest of Embree's settings on every scene of peers.py
 COLUMNS = [("scene", scene_title), ("segments", "segments"), ("without skin [ms]", rounded("without_ms")),
            ("best fixed skin [segment lengths]", shown("best_lengths", "{:g}")), ("with it [ms]", rounded("best_ms")),
            ("automatic [ms]", rounded("cycle_ms")),
            ("faster than without", lambda row: f"{row['without_ms'] / row['cycle_ms']:.1f}×"),
-           ("frames that refitted", lambda row: f"{row['refits']} of {row['frames']}")]
+           ("frames that refitted", lambda row: f"{row['refits']} of {row['frames']}"),
+           ("Embree, refitted", lambda row: f"{row['peer_ms'] / row['cycle_ms']:.1f}×")]
 
 
 @dataclasses.dataclass(frozen=True)
@@ -35,12 +37,12 @@ QUICK = Plan(0.01, 0.02, 60, 1.0)
 
 
 def skins_run(scene, scale, skins, frames):
-    """run_tree with several skins and that of its choice in turns, in one process: a row for each."""
+    """run_tree with several skins and that of its choice, and a peer, in turns, in one process: a row for each."""
     return Run(f"{scene} ×{scale:g}, {THREADS} thread(s)",
                f"{{tool}} coherence --scene {scene} --scale {scale} --motion {MOTION} --skins {skins} "
-               f"--frames {frames} --threads {THREADS} --json",
+               f"--engines {PEER} --frames {frames} --threads {THREADS} --json",
                # Nothing is printed before all frames are done; warming up counts for a frame.
-               patience=(len(skins.split(",")) + 1) * (frames + 1))
+               patience=(len(skins.split(",")) + 2) * (frames + 4))
 
 
 @experiment
@@ -62,22 +64,23 @@ def report(out, _quick):
 
 
 def fixed(rows):
-    return [row for row in rows if row["skin_lengths"] != "automatic"]
+    return [row for row in rows if row["engine"] == "run_tree" and row["skin_lengths"] != "automatic"]
 
 
 def automatic(rows):
-    return next(row for row in rows if row["skin_lengths"] == "automatic")
+    return next(row for row in rows if row.get("skin_lengths") == "automatic")
 
 
 def beside_fixed(rows):
-    """The row of the skin that the engine chooses, with the best of the fixed ones."""
+    """The row of the skin that the engine chooses, with the best of the fixed ones and the peer."""
     best = min(fixed(rows), key=lambda row: row["cycle_ms"])
+    peer = next(row for row in rows if row["engine"] == PEER)
     return {**automatic(rows), "without_ms": without_skin_ms(rows), "best_lengths": best["skin_lengths"],
-            "best_ms": best["cycle_ms"]}
+            "best_ms": best["cycle_ms"], "peer_ms": peer["cycle_ms"]}
 
 
 def without_skin_ms(rows):
-    return next(row["cycle_ms"] for row in rows if row["skin_lengths"] == 0)
+    return next(row["cycle_ms"] for row in fixed(rows) if row["skin_lengths"] == 0)
 
 
 def with_ratios(rows):

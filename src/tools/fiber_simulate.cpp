@@ -119,7 +119,7 @@ class Balance {
     if (worst.residual > residual_) {
       residual_ = worst.residual;
       std::ostringstream text;
-      text << worst.residual << " m/s a step (" << scene.residual_force(worst) << " N at node "
+      text << worst.residual << " m/s a step (" << worst.residual_force << " N at node "
            << worst.node << " of fibre " << quote(scene.fiber_names[worst.rod]) << ", after "
            << scene.stepper->time() << " s)";
       where_ = text.str();

@@ -148,6 +148,23 @@ TEST_F(FiberBench, ASkinKeepsTheTreeForAsManyFramesAsItLasts) {
   }
 }
 
+TEST_F(FiberBench, ShowsOtherEnginesBesideTheSkins) {
+  const ProcessResult result = bench(
+      "coherence --scene curly --scale 0.001 --frames 3 --skins 0 --engines AL,brute_force --json");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const std::vector<nlohmann::json> rows = json_lines(result.out);
+  ASSERT_EQ(rows.size(), 4U);
+  EXPECT_EQ(rows[2].at("engine"), "AL");
+  EXPECT_EQ(rows[3].at("engine"), "brute_force");
+  for (std::size_t i = 2; i < rows.size(); ++i) {
+    EXPECT_TRUE(rows[i].at("skin_lengths").is_null());
+    EXPECT_TRUE(rows[i].at("refits").is_null());
+    EXPECT_GT(rows[i].at("detect_ms"), 0.0);
+    EXPECT_GT(rows[i].at("pairs"), 0);
+    EXPECT_EQ(rows[i].at("pairs"), rows[0].at("pairs"));
+  }
+}
+
 TEST_F(FiberBench, ASkinKeepsTheCandidatesOfFibersThatStandStill) {
   const ProcessResult result = bench(
       "coherence --scene curly --scale 0.001 --frames 6 --motion 0.1 --moving 0.1 --skins 0,0.01 "
@@ -267,6 +284,7 @@ TEST_F(FiberBench, RefusesBadCommandLines) {
       refused(bench("coherence --skins 0,thin"), "--skins: 'thin' must be a finite number"));
   EXPECT_TRUE(refused(bench("coherence --skins"), "--skins"));
   EXPECT_TRUE(refused(bench("coherence --moving 2"), "--moving"));
+  EXPECT_TRUE(refused(bench("coherence --scale 0.001 --engines swift"), "'swift'"));
   EXPECT_TRUE(refused(bench("coherence --frames 0"), "--frames: '0'"));
   EXPECT_TRUE(refused(bench("simulate --parts theory"), "--parts"));
   EXPECT_TRUE(refused(bench("simulate --segments 10,0"), "--segments: '0'"));

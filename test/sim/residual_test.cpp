@@ -24,7 +24,8 @@ using Eigen::VectorXd;
 
 constexpr double balance_step = 1.0 / 240.0;
 constexpr double pressed_radius = 0.004;
-constexpr double creep = 1e-3;  // [m/s] of what sticks
+constexpr double creep = 1e-3;    // [m/s] of what sticks
+constexpr double friction = 0.4;  // coefficient
 
 /// Rods across each other, and one that is rolled up, above a table.
 Rods scene_of(Random& random) {
@@ -54,8 +55,6 @@ Effects effects_of(const ExtraScene& scene) {
 /// So stiff that no contact has more to hold than it does well: otherwise the solver makes them
 /// stiffer.
 /// @param begin where their time is 0 [s]
-constexpr double friction = 0.4;  // coefficient
-
 std::unique_ptr<Contacts> stiff_contacts(const ExtraScene& scene, double begin) {
   return scene.contacts(2e4, friction, begin);
 }
@@ -267,6 +266,38 @@ TEST_P(Residual, IsWhatIsLeftOfEachNodesEquation) {
   }
 }
 
+/// Few iterations leave something, which is told as the force of the integrator's own equation.
+TEST(ResidualForce, IsWhatTheEquationOfTheIntegratorLeaves) {
+  Random random(1);
+  for (const Integrator integrator : {Integrator::IMPLICIT_EULER, Integrator::BDF2}) {
+    Rods rods;
+    rods.add(straight(Vector3d::Zero(), Vector3d::UnitX(), 6), 0.005, rubber(0.005));
+    for (Vector3d& velocity : rods.velocities) {
+      velocity = 3.0 * random.direction();
+    }
+    StepperOptions options;
+    options.integrator = integrator;
+    options.max_iterations = 1;
+    Stepper stepper(rods, effects(std::make_unique<Stretch>()), options);
+    std::vector<Rods> states;
+    for (int i = 0; i < 5; ++i) {
+      stepper.step(balance_step);
+      states.push_back(stepper.rods());
+    }
+    const Rods& after = states.back();
+    // BDF2: v − 4/3 v₁ + 1/3 v₂ = 2/3 of a step's change.
+    const double weight = integrator == Integrator::BDF2 ? 1.0 / 3.0 : 0.0;
+    const std::uint32_t node = stepper.report().worst.node;
+    const Vector3d reference =
+        (1.0 + weight) * states[3].velocities[node] - weight * states[2].velocities[node];
+    const Vector3d left =
+        -derivatives_of(Stretch(), after, 0).gradient.segment<3>(3 * node) -
+        after.masses[node] * (after.velocities[node] - reference) / ((1.0 - weight) * balance_step);
+    EXPECT_EQ(stepper.report().unbalanced, 1U);
+    EXPECT_NEAR(stepper.report().worst.residual_force, left.norm(), 1e-6 * left.norm()) << weight;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Scenes, Residual,
                          testing::Values(Extra::NONE, Extra::LOADS, Extra::MOMENT, Extra::SECTIONS,
                                          Extra::BALL, Extra::WELD, Extra::CLOSED, Extra::LIFT,
@@ -281,20 +312,20 @@ struct ThinRodRun {
 
 ThinRodRun swing_thin_rod(const char* preset, double radius, Integrator integrator) {
   Rods rods;
-  rods.add(straight(Eigen::Vector3d::Zero(), {0.1, 0, 0}, 50), radius,
+  rods.add(straight(Vector3d::Zero(), {0.1, 0, 0}, 50), radius,
            solid_round_section(material_preset(preset), radius));
-  auto pinned = hold(rods, {pin(0, Eigen::Vector3d::Zero())});
   StepperOptions options;
   options.integrator = integrator;
   options.threads = 1;
-  Stepper stepper(rods,
-                  effects(std::make_unique<Gravity>(Eigen::Vector3d(0, 0, -9.81)),
-                          std::make_unique<Stretch>(), std::make_unique<Bend>(), std::move(pinned)),
-                  options);
+  Stepper stepper(
+      rods,
+      effects(std::make_unique<Gravity>(Vector3d(0, 0, -9.81)), std::make_unique<Stretch>(),
+              std::make_unique<Bend>(), hold(rods, {pin(0, Vector3d::Zero())})),
+      options);
   ThinRodRun run;
   std::vector<std::uint32_t> iterations;
   for (int i = 0; i < 240; ++i) {
-    stepper.step(1.0 / 240.0);
+    stepper.step(balance_step);
     run.unbalanced += stepper.report().unbalanced > 0 ? 1 : 0;
     iterations.push_back(stepper.report().iterations);
   }

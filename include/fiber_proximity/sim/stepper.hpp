@@ -47,6 +47,7 @@ struct StepperOptions {
 struct IslandReport {
   std::uint32_t iterations = 0;  ///< of Newton's method
   double residual = 0.0;         ///< largest change of speed that is left [m/s]
+  double residual_force = 0.0;   ///< the force that makes it, of its node [N]
   std::uint32_t rod = 0;         ///< whose residual that is
   std::uint32_t node = 0;        ///< counted from the rod's first one
   std::uint32_t impacts = 0;     ///< contacts that shared in an impact, or in what it left

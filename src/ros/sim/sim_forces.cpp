@@ -141,7 +141,7 @@ void fill_in(const fiber::SimScene& scene, const fiber::RodForces& forces,
   message.residual = worst.residual;
   message.residual_fiber = worst.rod;
   message.residual_node = worst.node;
-  message.residual_force = scene.residual_force(worst);
+  message.residual_force = worst.residual_force;
   message.energy_gain = scene.stepper->report().energy_gain;
 }
 

@@ -283,11 +283,6 @@ void SimScene::advance() {
   }
 }
 
-double SimScene::residual_force(const IslandReport& worst) const {
-  const Rods& rods = stepper->rods();
-  return worst.residual * rods.masses[rods.first(worst.rod) + worst.node] / step_length();
-}
-
 namespace {
 
 /// Makes a scene.

@@ -257,6 +257,10 @@ void StageSolver::solve_group(Rods& rods, const Effects& effects, double step, G
     group.joint_forces = solver->joint_forces();
   }
   group.reports = solver->reports();
+  for (IslandReport& report : group.reports) {
+    report.residual_force =
+        report.residual * rods.masses[rods.first(report.rod) + report.node] / step;
+  }
   group.needed_travel = solver->step_bound().needed();
   group.stuck_objects = solver->stuck_objects();
   group.stuck_progress = solver->stuck_progress();

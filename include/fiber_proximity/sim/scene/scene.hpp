@@ -287,9 +287,6 @@ struct SimScene : SimSettings {
   /// The name of one of them.
   const std::string& object_name(std::uint32_t object) const;
 
-  /// The force that a step has left unbalanced where most is left, as it reports that [N].
-  double residual_force(const IslandReport& worst) const;
-
   /// Whether steps may end before forces balance because the scene asks for fewer iterations than
   /// the default.
   bool asks_for_few_iterations() const {
