@@ -6,37 +6,55 @@
 #include <vector>
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
+#include "src/hierarchy/displacement.hpp"
+#include "src/hierarchy/motion_field.hpp"
 
 namespace fiber {
 
-/// Remembers where fibres were, to tell how far each has moved since.
+/// Remembers where fibres were, to tell how far they have moved since: each on its own, and beside
+/// a field that follows all of them.
 class MotionBound {
  public:
   /// Makes room for so many, which nobody touches before start().
   void reserve(std::size_t points, std::size_t fibers);
 
   /// From now on, motion is measured from here.
-  void start(const FiberAssembly& fibers);
+  /// @param lower, upper [m] of a box around the fibres
+  void start(const FiberAssembly& fibers, const Eigen::Vector3d& lower,
+             const Eigen::Vector3d& upper);
 
-  /// Measures one fibre from here from now on, of the topology and radii of start().
+  /// Measures one fibre from here from now on, of the topology and radii of start(). There is no
+  /// field until start() any more.
   void restart(const FiberAssembly& fibers, std::uint32_t fiber);
 
-  /// Measures how far every fibre has moved. The topology must be that of start().
-  /// @return [m] the largest distance of a point from where it was, rounded up; a segment's points
-  /// move no further than its ends. Infinite if radii have changed.
-  double measure(const FiberAssembly& fibers);
+  /// Measures how far the fibres have moved, rounded up: closely enough to tell whether that leaves
+  /// pairs within a margin among those within margin and skin [m]. The topology must be that of
+  /// start().
+  /// @return not known if radii have changed
+  Displacement measure(const FiberAssembly& fibers, double skin, double margin);
 
-  /// [m] How far each fibre has moved, as measured last; not set if radii have changed.
-  const std::vector<double>& by_fiber() const { return by_fiber_; }
+  /// [m] How far each fibre has moved; null where measure() did not need to know.
+  const std::vector<double>* by_fiber() const { return has_by_fiber_ ? &by_fiber_ : nullptr; }
+
+  /// [m] Half of how far two of them that are near have moved beside each other, at most;
+  /// infinite where measure() did not need to know.
+  double beside_others() const { return beside_others_; }
 
   std::size_t memory_bytes() const;
 
  private:
-  double motion_of(const FiberAssembly& fibers, std::uint32_t fiber) const;
+  Displacement measure_alone(const FiberAssembly& fibers);
+  Displacement beside_field(const FiberAssembly& fibers, double off) const;
+  double off_field(const FiberAssembly& fibers, double sampled) const;
 
   std::vector<Eigen::Vector3d> points_;
   std::vector<double> radii_;
   std::vector<double> by_fiber_;
+  bool has_by_fiber_ = false;
+  double beside_others_ = 0.0;
+  double longest_segment_ = 0.0;  // [m]
+  bool has_field_ = false;
+  MotionField field_;
 };
 
 }  // namespace fiber

@@ -26,6 +26,11 @@ CandidateCache::State CandidateCache::state() const {
   return state_;
 }
 
+double CandidateCache::margin() const {
+  const std::lock_guard lock(mutex_);
+  return key_.margin();
+}
+
 void CandidateCache::become(State worse) {
   const std::lock_guard lock(mutex_);
   state_ = std::min(state_, worse);

@@ -21,6 +21,8 @@ class CandidateKey {
 
   bool operator==(const CandidateKey& other) const;
 
+  double margin() const { return margin_; }  ///< [m]
+
  private:
   double margin_ = 0.0;  // [m]
   Pairing pairing_ = Pairing::ALL;
@@ -41,6 +43,9 @@ class CandidateCache {
 
   /// State of the candidates that are kept.
   State state() const;
+
+  /// [m] Of the queries that they serve, or served last.
+  double margin() const;
 
   /// Makes them worse: CURRENT ones STALE or NONE, STALE ones NONE.
   void become(State worse);

@@ -170,7 +170,7 @@ SearchSize ContactBatch::estimate(const RunTreeView& tree, const NarrowPhase& te
   SearchSize size;
   const double scale = searched == 0 ? 0.0 : static_cast<double>(groups) / searched;
   for (std::uint32_t index = 0; index < searched; ++index) {
-    size.node_tests += scale * static_cast<double>(jobs_[index].counts.node_tests);
+    size.overlaps += scale * static_cast<double>(jobs_[index].counts.node_overlaps);
     size.pairs += scale * static_cast<double>(jobs_[index].keys.size());
   }
   return size;
@@ -212,9 +212,9 @@ void ContactBatch::evaluate(const std::vector<std::uint64_t>& keys, bool are_all
 }
 
 bool ContactBatch::find(const RunTreeView& a, const RunTreeView& b, const NarrowPhase& test,
-                        double moved, const QueryLimits& limits, QueryResult& result) {
+                        const Approach& approach, const QueryLimits& limits, QueryResult& result) {
   const Found found =
-      collect(a, b, test, test.margin() + moved, limits, true, keys_, result.counts);
+      collect(a, b, test, approach.before(test.margin()), limits, true, keys_, result.counts);
   if (found == Found::TOO_MANY) {
     return false;
   }

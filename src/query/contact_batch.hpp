@@ -6,6 +6,7 @@
 #include "fiber_proximity/query/contact.hpp"
 #include "fiber_proximity/query/for_engines/pair_collector.hpp"
 #include "fiber_proximity/query/options.hpp"
+#include "src/hierarchy/displacement.hpp"
 #include "src/hierarchy/run_tree_kernels.hpp"
 #include "src/query/candidate_cache.hpp"
 #include "src/query/contact_evaluator.hpp"
@@ -51,10 +52,10 @@ class ContactBatch {
                 const QueryLimits& limits, QueryResult& result);
 
   /// Both, for candidates that serve this query alone.
-  /// @param moved [m] by how much pairs may be nearer than the trees have them
+  /// @param approach of pairs since the trees have had them
   /// @return false, with no answer, if there are more candidates than may be examined
-  bool find(const RunTreeView& a, const RunTreeView& b, const NarrowPhase& test, double moved,
-            const QueryLimits& limits, QueryResult& result);
+  bool find(const RunTreeView& a, const RunTreeView& b, const NarrowPhase& test,
+            const Approach& approach, const QueryLimits& limits, QueryResult& result);
 
  private:
   struct Job {

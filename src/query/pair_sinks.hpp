@@ -2,16 +2,22 @@
 
 #include "fiber_proximity/query/for_engines/pair_collector.hpp"
 #include "src/bounds/bounding_volume.hpp"
+#include "src/hierarchy/displacement.hpp"
 #include "src/hierarchy/run_tree_kernels.hpp"
 
 namespace fiber {
 
+/// [m] That of a pair whose gap is this one by now, rounded up.
+inline float gap_before(float gap, const Approach& approach) {
+  return approach.is_none() ? gap : round_up(approach.before(gap));
+}
+
 /// Hands candidates to a collector one by one: for the queries whose bound shrinks.
 class CollectorSink : public PairSink {
  public:
-  /// @param moved [m] by how much pairs may be nearer than the trees have them
-  CollectorSink(PairCollector& collector, double moved)
-      : collector_(collector), moved_(round_up(moved)) {}
+  /// @param approach of pairs since the trees have had them
+  CollectorSink(PairCollector& collector, const Approach& approach)
+      : collector_(collector), approach_(approach) {}
 
   bool offer(PointPair pair) override {
     collector_.offer(pair.a, pair.b);
@@ -20,7 +26,7 @@ class CollectorSink : public PairSink {
 
   PairBound bound() const override {
     const float gap = collector_.gap_bound();
-    return {moved_ == 0.0F ? gap : round_up(double{gap} + moved_), collector_.key_bound()};
+    return {gap_before(gap, approach_), collector_.key_bound()};
   }
 
   bool bound_shrinks() const override { return true; }
@@ -32,19 +38,18 @@ class CollectorSink : public PairSink {
 
  private:
   PairCollector& collector_;
-  const float moved_;
+  const Approach approach_;
 };
 
 /// Hands on what another sink is offered, of trees whose pairs may be nearer than they have them.
 class WideningSink final : public PairSink {
  public:
-  /// @param moved [m] by how much
-  WideningSink(PairSink& sink, double moved) : sink_(sink), moved_(moved) {}
+  WideningSink(PairSink& sink, const Approach& approach) : sink_(sink), approach_(approach) {}
 
   bool offer(PointPair pair) override { return sink_.offer(pair); }
   PairBound bound() const override {
     const PairBound bound = sink_.bound();
-    return {moved_ == 0.0 ? bound.gap : round_up(double{bound.gap} + moved_), bound.key};
+    return {gap_before(bound.gap, approach_), bound.key};
   }
   bool bound_shrinks() const override { return sink_.bound_shrinks(); }
   bool wants_adjacent() const override { return sink_.wants_adjacent(); }
@@ -54,7 +59,7 @@ class WideningSink final : public PairSink {
 
  private:
   PairSink& sink_;
-  const double moved_;
+  const Approach approach_;
 };
 
 }  // namespace fiber

@@ -27,6 +27,28 @@ Eigen::Vector3d corner(const float (&by_axis)[3][run_width], std::uint32_t lane)
   return {by_axis[0][lane], by_axis[1][lane], by_axis[2][lane]};
 }
 
+NodeBox box_of(const RunTree& tree, const RunTreeLevel& level, std::uint32_t child) {
+  const BoxBlock& block = level.boxes[child / run_width];
+  return {tree.origin() + corner(block.lower, child % run_width),
+          tree.origin() + corner(block.upper, child % run_width)};
+}
+
+/// Around all segments; a point without any.
+NodeBox box_of(const RunTree& tree) {
+  NodeBox box{tree.origin(), tree.origin()};
+  const RunTreeView& view = tree.view();
+  if (view.level_count == 0) {
+    return box;
+  }
+  const RunTreeLevel& top = view.levels[view.level_count - 1];
+  box = box_of(tree, top, 0);
+  for (std::uint32_t child = 1; child < top.child_count; ++child) {
+    const NodeBox other = box_of(tree, top, child);
+    box = {box.lower.cwiseMin(other.lower), box.upper.cwiseMax(other.upper)};
+  }
+  return box;
+}
+
 // Replacing the candidates of more segments than this part of all takes longer than finding all.
 constexpr double max_dirty_part = 0.25;
 
@@ -61,20 +83,20 @@ void RunTreeEngine::do_update(const FiberAssembly& fibers, bool same_topology) {
       return;
     }
     tree_.update({fibers, hierarchy_origin(fibers)});
-    if (!is_followed || (has_motion && !std::isfinite(moved_))) {
+    if (!is_followed || (has_motion && !moved_.is_known())) {
       forget(fibers);
     } else if (!has_motion) {
       start_anew(fibers, nullptr);
     } else if (!most_still_serve(fibers)) {
-      start_anew(fibers, &motion_.by_fiber());
+      start_anew(fibers, &motion_);
     }
   });
 }
 
 /// With a tree that has been fitted: all candidates are looked for anew.
-/// @param moved [m] by each fibre since that was so last; none: not known
-void RunTreeEngine::start_anew(const FiberAssembly& fibers, const std::vector<double>* moved) {
-  skin_.begin_stretch(fibers, moved);
+/// @param motion since that was so last; none: not known
+void RunTreeEngine::start_anew(const FiberAssembly& fibers, const MotionBound* motion) {
+  skin_.begin_stretch(fibers, motion);
   begin_to_serve(fibers);
 }
 
@@ -88,19 +110,26 @@ void RunTreeEngine::forget(const FiberAssembly& fibers) {
 
 void RunTreeEngine::begin_to_serve(const FiberAssembly& fibers) {
   ++refit_count_;
-  moved_ = 0.0;
+  moved_ = Displacement();
   moved_before_fit_ = 0.0;
   cache_.become(CandidateCache::State::NONE);
   if (skin_.asks_for_motion()) {
-    motion_.start(fibers);
+    const NodeBox box = box_of(tree_);
+    motion_.start(fibers, box.lower, box.upper);
   }
+}
+
+/// Of the fibres since the tree was fitted.
+Displacement RunTreeEngine::since_fit() const {
+  return moved_before_fit_ > 0.0 ? Displacement::within(moved_.beyond + moved_before_fit_) : moved_;
 }
 
 /// Whether the points are close enough to where the tree has them; notes how close.
 bool RunTreeEngine::tree_still_serves(const FiberAssembly& fibers) {
-  moved_ = motion_.measure(fibers);
-  // Two segments may have come towards each other.
-  const bool serves = 2.0 * moved_ <= skin_.skin() && !skin_.is_over();
+  // Of the pairs that are kept: other queries see for themselves whether these serve them, too.
+  const double margin = std::isfinite(cache_.margin()) ? cache_.margin() : 0.0;
+  moved_ = motion_.measure(fibers, skin_.skin(), margin);
+  const bool serves = moved_.leaves(skin_.skin(), margin) && !skin_.is_over();
   if (serves) {
     skin_.go_on();
   }
@@ -119,7 +148,7 @@ bool RunTreeEngine::most_still_serve(const FiberAssembly& fibers) {
   // Those that are far from the limit are left where they are; the others would follow soon.
   const double limit = skin_.skin() / 4.0;
   double of_others = 0.0;
-  const std::vector<double>& moved = motion_.by_fiber();
+  const std::vector<double>& moved = *motion_.by_fiber();
   for (std::uint32_t fiber = 0; fiber < fibers.fiber_count(); ++fiber) {
     if (moved[fiber] > limit) {
       dirty_.add(fibers, fiber);
@@ -139,7 +168,7 @@ bool RunTreeEngine::most_still_serve(const FiberAssembly& fibers) {
   }
   dirty_.fit(fibers, tree_.origin());
   cache_.become(CandidateCache::State::STALE);
-  moved_ = of_others;
+  moved_ = Displacement::within(of_others);
   moved_before_fit_ = of_others;
   skin_.go_on();
   ++refit_count_;
@@ -159,22 +188,24 @@ void RunTreeEngine::do_query(const FiberAssembly& fibers, const QueryOptions& op
   }
   PairCollector collector(fibers, left, result, &loops_);
   searches_.lend([&](ShrinkingSearch& search) {
-    search.find(tree_.view(), tree_.view(), 2.0 * moved_since_fit(), arena_, collector, result);
+    search.find(tree_.view(), tree_.view(), since_fit().approach, arena_, collector, result);
   });
 }
 
 void RunTreeEngine::do_query_shape(const FiberAssembly& shape, const FiberAssembly& fibers,
                                    const QueryOptions& options, QueryResult& result) const {
+  // The tree has the fibres where they were: so does the shape's, but for the drift.
+  const Displacement since = since_fit();
+  const Approach approach(since.beyond);
   RunTree shape_tree;
-  shape_tree.build({shape, tree_.origin()});
+  shape_tree.build({shape, tree_.origin() + since.drift});
   QueryOptions left = options;
   if (options.type == QueryType::ALL) {
     const QueryLimits limits(options);
     const NarrowPhase test(shape, fibers, options);
     bool is_found = false;
     with_batch([&](ContactBatch& batch) {
-      is_found =
-          batch.find(shape_tree.view(), tree_.view(), test, moved_since_fit(), limits, result);
+      is_found = batch.find(shape_tree.view(), tree_.view(), test, approach, limits, result);
     });
     if (is_found) {
       return;
@@ -183,13 +214,13 @@ void RunTreeEngine::do_query_shape(const FiberAssembly& shape, const FiberAssemb
   }
   PairCollector collector(shape, fibers, left, result);
   searches_.lend([&](ShrinkingSearch& search) {
-    search.find(shape_tree.view(), tree_.view(), moved_since_fit(), arena_, collector, result);
+    search.find(shape_tree.view(), tree_.view(), approach, arena_, collector, result);
   });
 }
 
 void RunTreeEngine::offer_pairs(PairSink& sink, const std::function<bool()>& is_over,
                                 QueryCounts& counts) const {
-  WideningSink wide(sink, 2.0 * moved_since_fit());
+  WideningSink wide(sink, since_fit().approach);
   const RunTreeView& tree = tree_.view();
   find_near_segments_until(is_over, tree, 0, tree.group_count(), tree, wide, counts.node_tests,
                            counts.node_overlaps);
@@ -198,9 +229,12 @@ void RunTreeEngine::offer_pairs(PairSink& sink, const std::function<bool()>& is_
 void RunTreeEngine::offer_pairs_with(const FiberAssembly& shape, PairSink& sink,
                                      const std::function<bool()>& is_over,
                                      QueryCounts& counts) const {
+  // The tree has the fibres where they were: so does the shape's, but for the drift.
+  const Displacement since = since_fit();
+  const Approach approach(since.beyond);
   RunTree shape_tree;
-  shape_tree.build({shape, tree_.origin()});
-  WideningSink wide(sink, moved_since_fit());
+  shape_tree.build({shape, tree_.origin() + since.drift});
+  WideningSink wide(sink, approach);
   find_near_segments_until(is_over, shape_tree.view(), 0, shape_tree.view().group_count(),
                            tree_.view(), wide, counts.node_tests, counts.node_overlaps);
 }
@@ -218,10 +252,11 @@ bool RunTreeEngine::find_own(const FiberAssembly& fibers, const NarrowPhase& tes
         return batch.estimate(tree_.view(), test, options.margin + skin, skin == 0.0);
       };
       skin_.decide(fibers, std::cref(estimate));  // which allocates nothing
-      is_found = skin_.keeps_pairs() && find_kept(test, options, limits, batch, result);
+      is_found = skin_.keeps_pairs() && moved_.leaves(skin_.skin(), options.margin) &&
+                 find_kept(test, options, limits, batch, result);
     }
-    is_found = is_found || batch.find(tree_.view(), tree_.view(), test, 2.0 * moved_since_fit(),
-                                      limits, result);
+    is_found = is_found ||
+               batch.find(tree_.view(), tree_.view(), test, since_fit().approach, limits, result);
   });
   return is_found;
 }
@@ -314,19 +349,18 @@ void RunTreeEngine::level_boxes(std::uint32_t level, std::vector<NodeBox>& boxes
   if (tree.level_count == 0) {
     return;
   }
-  const std::uint32_t below_root = std::clamp(level, 1U, tree.level_count) - 1;
-  const RunTreeLevel& shown = tree.levels[tree.level_count - 1 - below_root];
-  for (std::uint32_t child = 0; child < shown.child_count; ++child) {
-    const BoxBlock& block = shown.boxes[child / run_width];
-    boxes.push_back({tree_.origin() + corner(block.lower, child % run_width),
-                     tree_.origin() + corner(block.upper, child % run_width)});
-  }
+  const Displacement since = since_fit();
+  const auto add = [&](const NodeBox& box) {
+    boxes.push_back({box.lower + since.drift - Eigen::Vector3d::Constant(since.beyond),
+                     box.upper + since.drift + Eigen::Vector3d::Constant(since.beyond)});
+  };
   if (level == 0) {
-    for (const NodeBox& box : boxes) {
-      boxes.front().lower = boxes.front().lower.cwiseMin(box.lower);
-      boxes.front().upper = boxes.front().upper.cwiseMax(box.upper);
-    }
-    boxes.resize(1, boxes.front());
+    add(box_of(tree_));
+    return;
+  }
+  const RunTreeLevel& shown = tree.levels[tree.level_count - std::min(level, tree.level_count)];
+  for (std::uint32_t child = 0; child < shown.child_count; ++child) {
+    add(box_of(tree_, shown, child));
   }
 }
 

@@ -60,10 +60,10 @@ class FIBER_PROXIMITY_EXPORT RunTreeEngine final : public ProximityEngine {
  private:
   bool tree_still_serves(const FiberAssembly& fibers);
   bool most_still_serve(const FiberAssembly& fibers);
-  void start_anew(const FiberAssembly& fibers, const std::vector<double>* moved);
+  void start_anew(const FiberAssembly& fibers, const MotionBound* motion);
   void forget(const FiberAssembly& fibers);
   void begin_to_serve(const FiberAssembly& fibers);
-  double moved_since_fit() const { return moved_ + moved_before_fit_; }
+  Displacement since_fit() const;
 
   struct Candidates {
     CandidateCache::Keys keys;
@@ -85,8 +85,8 @@ class FIBER_PROXIMITY_EXPORT RunTreeEngine final : public ProximityEngine {
   mutable SkinChoice skin_;
   RunTree tree_;
   MotionBound motion_;
-  double moved_ = 0.0;             // [m] at most, since motion is measured
-  double moved_before_fit_ = 0.0;  // [m] of that when the tree was fitted
+  Displacement moved_;             // since motion is measured
+  double moved_before_fit_ = 0.0;  // [m] of that when the tree was fitted: without a drift
   std::uint64_t refit_count_ = 0;
   std::uint64_t partial_count_ = 0;
   mutable CandidateCache cache_;

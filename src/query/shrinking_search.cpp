@@ -8,8 +8,8 @@ namespace {
 /// Hands candidates to the collector of a job, until its round has enough.
 class JobSink final : public CollectorSink {
  public:
-  JobSink(SearchJob<PairCollector>& job, double moved)
-      : CollectorSink(job.part(), moved), job_(job) {}
+  JobSink(SearchJob<PairCollector>& job, const Approach& approach)
+      : CollectorSink(job.part(), approach), job_(job) {}
 
   bool offer(PointPair pair) override { return CollectorSink::offer(pair) && job_.goes_on(1024); }
 
@@ -19,16 +19,16 @@ class JobSink final : public CollectorSink {
 
 }  // namespace
 
-void ShrinkingSearch::find(const RunTreeView& a, const RunTreeView& b, double moved,
+void ShrinkingSearch::find(const RunTreeView& a, const RunTreeView& b, const Approach& approach,
                            tbb::task_arena& arena, PairCollector& whole, QueryResult& result) {
   constexpr std::uint32_t least_groups = 4;  // of a job
-  CollectorSink sink(whole, moved);
+  CollectorSink sink(whole, approach);
   jobs_.search(
       whole, a.group_count(), least_groups, least_groups,
       [&](const auto& work) { arena.execute(work); },
       [&](SearchJob<PairCollector>& job, QueryCounts& counts, std::uint32_t begin,
           std::uint32_t end) {
-        JobSink job_sink(job, moved);
+        JobSink job_sink(job, approach);
         find_near_segments_until([&] { return job.is_over(); }, a, begin, end, b, job_sink,
                                  counts.node_tests, counts.node_overlaps);
       },

@@ -4,6 +4,7 @@
 
 #include "fiber_proximity/query/contact.hpp"
 #include "fiber_proximity/query/for_engines/pair_collector.hpp"
+#include "src/hierarchy/displacement.hpp"
 #include "src/hierarchy/run_tree_kernels.hpp"
 #include "src/query/search_jobs.hpp"
 
@@ -14,10 +15,10 @@ namespace fiber {
 /// its memory from query to query.
 class ShrinkingSearch {
  public:
-  /// @param moved [m] by how much pairs may be nearer than the trees have them
+  /// @param approach of pairs since the trees have had them
   /// @param whole of this result; is finished here
-  void find(const RunTreeView& a, const RunTreeView& b, double moved, tbb::task_arena& arena,
-            PairCollector& whole, QueryResult& result);
+  void find(const RunTreeView& a, const RunTreeView& b, const Approach& approach,
+            tbb::task_arena& arena, PairCollector& whole, QueryResult& result);
 
  private:
   SearchJobs<PairCollector> jobs_;  // of some groups of segments

@@ -11,13 +11,13 @@ namespace fiber {
 namespace {
 
 // [ns] What one takes on one thread: least squares over `fiber_bench coherence --json` on eight
-// scenes with five skins. Pairs took 160 to 230 to be found, and 25 to 100 to be judged, the more
-// the less a scene fits into the caches (AMD EPYC, 2026-11-28).
-constexpr double fit_ns = 11.0;    // a segment
-constexpr double motion_ns = 3.6;  // a point
-constexpr double test_ns = 6.6;    // a node's children
-constexpr double find_ns = 200.0;  // a pair that a search comes upon, its sorting included
-constexpr double judge_ns = 80.0;  // a pair
+// scenes with five skins, which they explain to 14 % (AMD EPYC, 2026-11-29). Tests of boxes that
+// are not near, which those of the others come with, had nothing to explain.
+constexpr double fit_ns = 24.0;      // a segment
+constexpr double motion_ns = 12.0;   // a point
+constexpr double overlap_ns = 63.0;  // a box that is near, with all that is done about it
+constexpr double find_ns = 163.0;    // a pair that a search comes upon, its sorting included
+constexpr double judge_ns = 41.0;    // a pair
 
 constexpr double first_frames = 4.0;  // that the first skin thought of lasts for
 constexpr double least_frames = 2.0;
@@ -63,18 +63,24 @@ void SkinChoice::start() {
   are_too_many_ = false;
 }
 
-void SkinChoice::begin_stretch(const FiberAssembly& fibers, const std::vector<double>* moved) {
+void SkinChoice::begin_stretch(const FiberAssembly& fibers, const MotionBound* motion) {
   if (!is_automatic_) {
     pays_ = skin_ > 0.0 && frames_ > 1;
   } else if (is_due_ || are_too_many_) {
     do_without();  // nobody has asked for what could be kept, or it could not be
-  } else if (moved == nullptr) {
+  } else if (motion == nullptr) {
     wait_ -= std::min(wait_, 1U);
   } else {
-    motion_ = motion_of_most(fibers, *moved) / frames_;
+    motion_ = motion->beside_others();
+    if (motion->by_fiber() != nullptr) {
+      motion_ = std::min(motion_, motion_of_most(fibers, *motion->by_fiber()));
+    }
+    motion_ /= frames_;
     if (frames_meant_ > 0.0) {
       const double before = lasted_;
-      lasted_ = std::min(4.0, frames_ / frames_meant_);
+      // A frame less is what rounding may cost.
+      const double with_one_more = std::min(1.0, (frames_ + 1) / frames_meant_);
+      lasted_ = std::min(4.0, std::max(frames_ / frames_meant_, with_one_more));
       next_wait_ = 1;
       const bool is_as_before = lasted_ < step * before && before < step * lasted_;
       kept_for_ = is_as_before ? kept_for_ : 0;
@@ -122,11 +128,11 @@ void SkinChoice::choose(const FiberAssembly& fibers, const Estimate& estimate) {
   const double begin = last_frames_;
   double frames = begin;
   while (frames <= most_frames && is_better(frames)) {
-    frames *= step;
+    frames = std::round(frames * step);
   }
-  frames = begin / step;
+  frames = std::round(begin / step);
   while (best <= begin && frames >= least_frames && (is_better(frames) || best == 0.0)) {
-    frames /= step;
+    frames = std::round(frames / step);
   }
   if (best == 0.0) {
     do_without();
@@ -155,7 +161,7 @@ void SkinChoice::last_for(double frames) {
 double SkinChoice::cost(double frames, const FiberAssembly& fibers,
                         const SearchSize& search) const {
   const double find = fit_ns * static_cast<double>(fibers.segment_count()) +
-                      test_ns * search.node_tests + find_ns * search.pairs;
+                      overlap_ns * search.overlaps + find_ns * search.pairs;
   const double judge = judge_ns * search.pairs;
   if (frames == 0.0) {
     return find + judge;

@@ -10,13 +10,14 @@
 #include <vector>
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
+#include "src/hierarchy/motion_bound.hpp"
 
 namespace fiber {
 
 /// What a search of the tree takes, counted or estimated.
 struct SearchSize {
-  double node_tests = 0.0;
-  double pairs = 0.0;  ///< that it comes upon
+  double overlaps = 0.0;  ///< boxes of nodes and runs that are near others
+  double pairs = 0.0;     ///< that it comes upon
 };
 
 /// Chooses the skin for the next frames, unless the user has chosen.
@@ -71,8 +72,8 @@ class SkinChoice {
   void go_on() { pays_ = true; }
 
   /// Begins a stretch, with a fit.
-  /// @param moved [m] by each fibre since the last one began; none: that is not known
-  void begin_stretch(const FiberAssembly& fibers, const std::vector<double>* moved);
+  /// @param motion since the last one began; none: that is not known
+  void begin_stretch(const FiberAssembly& fibers, const MotionBound* motion);
 
   /// Chooses, if that is due, before the first search of a stretch. Several threads may ask at the
   /// same time.
