@@ -18,7 +18,14 @@ class Approach {
   /// are d apart now were at most (d + way) / (1 − rate) apart.
   /// @param rate      a Lipschitz constant of the field
   /// @param thickness [m] most of two radii together
-  Approach(double way, double rate, double thickness);
+  Approach(double way, double rate, double thickness) {
+    // Rounded up; that of the gap, which may be less than 0, as well.
+    constexpr double epsilon = 8.0 * std::numeric_limits<double>::epsilon();
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    factor_ = rate < 1.0 ? (1.0 + epsilon) / (1.0 - rate) : 1.0;
+    offset_ = rate < 1.0 ? (1.0 + epsilon) * factor_ * (way + (rate + 2.0 * epsilon) * thickness)
+                         : infinity;
+  }
 
   /// [m] For that of the surfaces by now. Infinite where nothing is known.
   double before(double gap) const { return factor_ * gap + offset_; }
