@@ -154,35 +154,115 @@ TEST(MovingTogether, KeepsTheTreeOfWhatIsCarried) {
   EXPECT_GT(found, 100U);
 }
 
+void expect_contacts(const ProximityEngine& engine, const FiberAssembly& fibers,
+                     const QueryOptions& options, std::size_t least) {
+  const QueryResult truth = brute_force(fibers, options);
+  EXPECT_GE(truth.contacts.size(), least);
+  EXPECT_TRUE(same_contacts(answer(engine, options).contacts, truth.contacts));
+}
+
+/// Rows of fibres of ten segments, so far apart that none touch.
+std::vector<std::vector<Vector3d>> rows(int count, double distance) {
+  std::vector<std::vector<Vector3d>> fibers;
+  for (int i = 0; i < count; ++i) {
+    std::vector<Vector3d> points;
+    for (int j = 0; j <= 10; ++j) {
+      points.emplace_back(0.1 * j, distance * i, 0.0);
+    }
+    fibers.push_back(points);
+  }
+  return fibers;
+}
+
+/// All are carried, and two come towards each other beside that.
+TEST(MovingTogether, SeesTwoThatComeTowardsEachOtherOnTheWay) {
+  constexpr double skin = 0.1;
+  const auto frame = [&](double carried, double each) {
+    std::vector<std::vector<Vector3d>> fibers = rows(30, 1.0);
+    fibers[10][5].z() += 0.75 * skin - each;
+    fibers[11][5] = fibers[10][5];
+    fibers[11][5].z() += -1.5 * skin + 2.0 * each;
+    fibers[11][4] = fibers[11][5] - Vector3d(0.3, 0.0, 0.0);
+    fibers[11][6] = fibers[11][5] + Vector3d(0.3, 0.1, 0.0);
+    for (std::vector<Vector3d>& points : fibers) {
+      for (Vector3d& point : points) {
+        point += Vector3d(0.0, carried, carried);
+      }
+    }
+    return as_fibers(fibers, 0.0);
+  };
+  for (const double each : {0.3, 0.49, 0.51, 0.6, 0.75}) {
+    SCOPED_TRACE(each);
+    RunTreeEngine engine({1, skin});
+    QueryOptions options = within(0.001);
+    options.pairing = Pairing::DIFFERENT_FIBERS;
+    const FiberAssembly before = frame(0.0, 0.0);
+    engine.update(before);
+    answer(engine, options);
+    const FiberAssembly fibers = frame(10.0 * skin, each * skin);
+    engine.update(fibers);
+    EXPECT_EQ(engine.refit_count(), each < 0.4 ? 1U : 2U);
+    expect_contacts(engine, fibers, options, each == 0.75 ? 1U : 0U);
+  }
+}
+
+/// Candidates of one margin are kept while they serve that one: not another one.
+TEST(MovingTogether, SeesThatAWiderMarginNeedsMore) {
+  constexpr double margin = 5.0;
+  constexpr double skin = 0.03;
+  const auto frame = [&](double scale) {
+    std::vector<std::vector<Vector3d>> fibers = rows(30, 0.15);
+    for (std::size_t i = 15; i < fibers.size(); ++i) {
+      for (Vector3d& point : fibers[i]) {
+        point.y() -= 15 * 0.15;
+        point.z() += margin + 1.3 * skin;
+      }
+    }
+    for (std::vector<Vector3d>& points : fibers) {
+      for (Vector3d& point : points) {
+        point *= scale;
+      }
+    }
+    return as_fibers(fibers, 0.0);
+  };
+  RunTreeEngine engine({1, skin});
+  const FiberAssembly before = frame(1.0);
+  engine.update(before);
+  answer(engine, within(0.0));
+  const FiberAssembly fibers = frame(0.99);
+  engine.update(fibers);
+  EXPECT_EQ(engine.refit_count(), 1U);
+  QueryOptions options = within(margin);
+  options.pairing = Pairing::DIFFERENT_FIBERS;
+  expect_contacts(engine, fibers, options, 3000);
+}
+
 /// Short fibres rise in the middle of a carpet, to one long fibre above them whose ends stay: all
 /// points move as the field does, but what is between the ends does not.
 TEST(MovingTogether, SeesWhatIsBetweenTheEndsOfALongSegment) {
   constexpr double height = 0.3;
   const auto carpet = [&](double rise) {
     std::vector<std::vector<Vector3d>> fibers;
-    for (int i = 0; i < 40; ++i) {
+    for (int i = 0; i <= 42; ++i) {
       std::vector<Vector3d> points;
-      for (int j = 0; j <= 40; ++j) {
-        const double x = i / 39.0;
-        const double y = j / 40.0;
-        const double at_middle = 1.0 - std::abs(2.0 * x - 1.0);
-        points.emplace_back(x, y, rise * at_middle);
+      for (int j = 0; j <= 42; ++j) {
+        const double x = i / 42.0;
+        points.emplace_back(x, j / 42.0, rise * std::min({3.0 * x, 1.0, 3.0 - 3.0 * x}));
       }
       fibers.push_back(points);
     }
     fibers.push_back({{0.0, 0.5, height}, {1.0, 0.5, height}});
     return as_fibers(fibers, 0.001);
   };
+  QueryOptions options;
+  options.pairing = Pairing::DIFFERENT_FIBERS;
   RunTreeEngine engine({1, 0.2});
-  for (const double rise : {0.0, 0.05, 0.15, 0.25, 0.2985}) {
-    const FiberAssembly fibers = carpet(rise);
-    engine.update(fibers);
-    QueryOptions options;
-    options.neighbour_skip = 1;
-    EXPECT_TRUE(
-        same_contacts(answer(engine, options).contacts, brute_force(fibers, options).contacts))
-        << rise;
-  }
+  const FiberAssembly before = carpet(0.0);
+  engine.update(before);
+  expect_contacts(engine, before, options, 0);
+  const FiberAssembly fibers = carpet(0.2985);
+  engine.update(fibers);
+  expect_contacts(engine, fibers, options, 10);
 }
 
 /// Thick fibres that all come together, as far as the skin lets them and a little farther: their
