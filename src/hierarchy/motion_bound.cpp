@@ -74,16 +74,16 @@ void MotionBound::restart(const FiberAssembly& fibers, std::uint32_t fiber) {
   has_field_ = false;
 }
 
-Displacement MotionBound::measure(const FiberAssembly& fibers, double skin, double margin) {
+MotionSinceFit MotionBound::measure(const FiberAssembly& fibers, double skin, double margin) {
   assert(fibers.point_count() == points_.size() && fibers.fiber_count() == by_fiber_.size());
   if (fibers.radii() != radii_) {
-    return Displacement::unknown();
+    return MotionSinceFit::unknown();
   }
   has_by_fiber_ = false;
   beside_others_ = std::numeric_limits<double>::infinity();
   // A sample tells whether it takes more than to see how far each has moved.
   if (has_field_ && 2.0 * field_.sampled_motion(points_, fibers.points()) > skin) {
-    const Displacement beside =
+    const MotionSinceFit beside =
         beside_field(fibers, off_field(fibers, field_.follow(points_, fibers.points())));
     const double nearer = beside.approach.before(margin) - margin;
     beside_others_ = nearer >= 0.0 ? nearer / 2.0 : beside_others_;
@@ -94,9 +94,9 @@ Displacement MotionBound::measure(const FiberAssembly& fibers, double skin, doub
   return measure_alone(fibers);
 }
 
-Displacement MotionBound::measure_alone(const FiberAssembly& fibers) {
+MotionSinceFit MotionBound::measure_alone(const FiberAssembly& fibers) {
   has_by_fiber_ = true;
-  return Displacement::within(largest_of(fibers, [&](std::uint32_t fiber) {
+  return MotionSinceFit::within(largest_of(fibers, [&](std::uint32_t fiber) {
     double squared = 0.0;
     for (std::size_t i = fibers.offsets()[fiber]; i < fibers.offsets()[fiber + 1]; ++i) {
       squared = std::max(squared, (fibers.points()[i] - points_[i]).squaredNorm());
@@ -130,7 +130,7 @@ double MotionBound::off_field(const FiberAssembly& fibers, double sampled) const
 }
 
 /// @param off [m] the field, of each point at most
-Displacement MotionBound::beside_field(const FiberAssembly& fibers, double off) const {
+MotionSinceFit MotionBound::beside_field(const FiberAssembly& fibers, double off) const {
   const double of_points = off + field_.rounding();
   // Between the ends of a segment the field may be off by what it changes along half of it.
   const double way = 2.0 * of_points + field_.rate() * longest_segment_;

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
-#include "src/hierarchy/displacement.hpp"
 #include "src/hierarchy/motion_field.hpp"
+#include "src/hierarchy/motion_since_fit.hpp"
 
 namespace fiber {
 
@@ -31,7 +31,7 @@ class MotionBound {
   /// pairs within a margin among those within margin and skin [m]. The topology must be that of
   /// start().
   /// @return not known if radii have changed
-  Displacement measure(const FiberAssembly& fibers, double skin, double margin);
+  MotionSinceFit measure(const FiberAssembly& fibers, double skin, double margin);
 
   /// [m] How far each fibre has moved; null where measure() did not need to know.
   const std::vector<double>* by_fiber() const { return has_by_fiber_ ? &by_fiber_ : nullptr; }
@@ -43,8 +43,8 @@ class MotionBound {
   std::size_t memory_bytes() const;
 
  private:
-  Displacement measure_alone(const FiberAssembly& fibers);
-  Displacement beside_field(const FiberAssembly& fibers, double off) const;
+  MotionSinceFit measure_alone(const FiberAssembly& fibers);
+  MotionSinceFit beside_field(const FiberAssembly& fibers, double off) const;
   double off_field(const FiberAssembly& fibers, double sampled) const;
 
   std::vector<Eigen::Vector3d> points_;

@@ -6,7 +6,7 @@
 #include "fiber_proximity/query/contact.hpp"
 #include "fiber_proximity/query/for_engines/pair_collector.hpp"
 #include "fiber_proximity/query/options.hpp"
-#include "src/hierarchy/displacement.hpp"
+#include "src/hierarchy/motion_since_fit.hpp"
 #include "src/hierarchy/run_tree_kernels.hpp"
 #include "src/query/candidate_cache.hpp"
 #include "src/query/contact_evaluator.hpp"

@@ -2,7 +2,7 @@
 
 #include "fiber_proximity/query/for_engines/pair_collector.hpp"
 #include "src/bounds/bounding_volume.hpp"
-#include "src/hierarchy/displacement.hpp"
+#include "src/hierarchy/motion_since_fit.hpp"
 #include "src/hierarchy/run_tree_kernels.hpp"
 
 namespace fiber {

@@ -110,7 +110,7 @@ void RunTreeEngine::forget(const FiberAssembly& fibers) {
 
 void RunTreeEngine::begin_to_serve(const FiberAssembly& fibers) {
   ++refit_count_;
-  moved_ = Displacement();
+  moved_ = MotionSinceFit();
   moved_before_fit_ = 0.0;
   cache_.become(CandidateCache::State::NONE);
   if (skin_.asks_for_motion()) {
@@ -120,8 +120,9 @@ void RunTreeEngine::begin_to_serve(const FiberAssembly& fibers) {
 }
 
 /// Of the fibres since the tree was fitted.
-Displacement RunTreeEngine::since_fit() const {
-  return moved_before_fit_ > 0.0 ? Displacement::within(moved_.beyond + moved_before_fit_) : moved_;
+MotionSinceFit RunTreeEngine::since_fit() const {
+  return moved_before_fit_ > 0.0 ? MotionSinceFit::within(moved_.beyond + moved_before_fit_)
+                                 : moved_;
 }
 
 /// Whether the points are close enough to where the tree has them; notes how close.
@@ -168,7 +169,7 @@ bool RunTreeEngine::most_still_serve(const FiberAssembly& fibers) {
   }
   dirty_.fit(fibers, tree_.origin());
   cache_.become(CandidateCache::State::STALE);
-  moved_ = Displacement::within(of_others);
+  moved_ = MotionSinceFit::within(of_others);
   moved_before_fit_ = of_others;
   skin_.go_on();
   ++refit_count_;
@@ -195,7 +196,7 @@ void RunTreeEngine::do_query(const FiberAssembly& fibers, const QueryOptions& op
 void RunTreeEngine::do_query_shape(const FiberAssembly& shape, const FiberAssembly& fibers,
                                    const QueryOptions& options, QueryResult& result) const {
   // The tree has the fibres where they were: so does the shape's, but for the drift.
-  const Displacement since = since_fit();
+  const MotionSinceFit since = since_fit();
   const Approach approach(since.beyond);
   RunTree shape_tree;
   shape_tree.build({shape, tree_.origin() + since.drift});
@@ -230,7 +231,7 @@ void RunTreeEngine::offer_pairs_with(const FiberAssembly& shape, PairSink& sink,
                                      const std::function<bool()>& is_over,
                                      QueryCounts& counts) const {
   // The tree has the fibres where they were: so does the shape's, but for the drift.
-  const Displacement since = since_fit();
+  const MotionSinceFit since = since_fit();
   const Approach approach(since.beyond);
   RunTree shape_tree;
   shape_tree.build({shape, tree_.origin() + since.drift});
@@ -349,7 +350,7 @@ void RunTreeEngine::level_boxes(std::uint32_t level, std::vector<NodeBox>& boxes
   if (tree.level_count == 0) {
     return;
   }
-  const Displacement since = since_fit();
+  const MotionSinceFit since = since_fit();
   const auto add = [&](const NodeBox& box) {
     boxes.push_back({box.lower + since.drift - Eigen::Vector3d::Constant(since.beyond),
                      box.upper + since.drift + Eigen::Vector3d::Constant(since.beyond)});

@@ -63,7 +63,7 @@ class FIBER_PROXIMITY_EXPORT RunTreeEngine final : public ProximityEngine {
   void start_anew(const FiberAssembly& fibers, const MotionBound* motion);
   void forget(const FiberAssembly& fibers);
   void begin_to_serve(const FiberAssembly& fibers);
-  Displacement since_fit() const;
+  MotionSinceFit since_fit() const;
 
   struct Candidates {
     CandidateCache::Keys keys;
@@ -85,7 +85,7 @@ class FIBER_PROXIMITY_EXPORT RunTreeEngine final : public ProximityEngine {
   mutable SkinChoice skin_;
   RunTree tree_;
   MotionBound motion_;
-  Displacement moved_;             // since motion is measured
+  MotionSinceFit moved_;           // since motion is measured
   double moved_before_fit_ = 0.0;  // [m] of that when the tree was fitted: without a drift
   std::uint64_t refit_count_ = 0;
   std::uint64_t partial_count_ = 0;

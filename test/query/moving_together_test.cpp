@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "src/hierarchy/displacement.hpp"
+#include "src/hierarchy/motion_since_fit.hpp"
 #include "src/query/run_tree_engine.hpp"
 #include "test/support/answers.hpp"
 #include "test/support/assemblies.hpp"

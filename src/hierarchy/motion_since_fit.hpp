@@ -38,16 +38,16 @@ class Approach {
 };
 
 /// Bounds on how far fibres have moved.
-struct Displacement {
+struct MotionSinceFit {
   Eigen::Vector3d drift = Eigen::Vector3d::Zero();  ///< [m] what they have in common
   double beyond = 0.0;                              ///< [m] of any point, the drift apart
   Approach approach;
 
   /// Each point by at most so much [m].
-  static Displacement within(double moved) {
+  static MotionSinceFit within(double moved) {
     return {Eigen::Vector3d::Zero(), moved, Approach(2.0 * moved)};
   }
-  static Displacement unknown() { return within(std::numeric_limits<double>::infinity()); }
+  static MotionSinceFit unknown() { return within(std::numeric_limits<double>::infinity()); }
 
   bool is_known() const { return beyond < std::numeric_limits<double>::infinity(); }
 
