@@ -82,7 +82,7 @@ class EngineFrames {
         {"cycle_ms", mean(update_ms_) + mean(detect_ms_)},
         {"pairs", pairs_},
         {"node_tests", counts_.node_tests},
-                     {"node_overlaps", counts_.node_overlaps},
+        {"node_overlaps", counts_.node_overlaps},
         {"primitive_tests", counts_.primitive_tests},
         {"bytes_per_segment", static_cast<double>(engine_->facts().memory_bytes) / segments},
         {"skin", nullptr},

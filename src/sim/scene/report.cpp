@@ -245,8 +245,8 @@ void warn_of_balance(const SimScene& scene, std::vector<SimWarning>& warnings) {
        format("forces do not balance within ", scene.options.max_iterations,
               " iterations: what is left at node ", worst.node, " of fibre ",
               quote(scene.fiber_names[worst.rod]), " would change its speed by ", worst.residual,
-              " m/s a step, ", worst.residual_force, " N; `residual` is ",
-              scene.options.residual, " m/s", mend_of_balance(scene, worst))});
+              " m/s a step, ", worst.residual_force, " N; `residual` is ", scene.options.residual,
+              " m/s", mend_of_balance(scene, worst))});
 }
 
 }  // namespace
