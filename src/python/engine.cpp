@@ -126,8 +126,8 @@ name : str, default "run_tree"
 threads : int, default 0
     Most threads to use, 0 for as many as there are cores. The answers do not depend on it.
 skin : float [m], optional
-    Pairs up to this far beyond the margin are kept and serve as long as no two points have moved by
-    more than this together; 0 keeps none. Without, the engine chooses by what points move from one
+    Pairs up to this far beyond the margin are kept and serve as long as no two segments that are
+    near each other have moved by more than this beside each other; 0 keeps none. Without, the engine chooses by what points move from one
     update to the next, and by what its frames cost.
 
 Raises

@@ -33,9 +33,9 @@ struct EngineOptions {
   std::uint32_t threads = 0;
 
   /// [m] finite, >= 0. Pairs up to this far beyond the margin are kept, too, and serve as long as
-  /// no two points have moved by more than this together; 0 looks for them in every query. Without
-  /// a value the engine chooses by what points move and what its frames cost, where frames of one
-  /// topology follow each other.
+  /// no two segments that are near each other have moved by more than this beside each other; 0
+  /// looks for them in every query. Without a value the engine chooses by what points move and what
+  /// its frames cost, where frames of one topology follow each other.
   std::optional<double> skin{};
 };
 
