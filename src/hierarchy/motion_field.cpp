@@ -10,8 +10,10 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
+// So few that following them takes next to nothing beside a look at every point.
+constexpr std::size_t sampled_of = 64;  // points one
 constexpr std::size_t most_sampled = 4096;
-constexpr double points_per_cell = 64.0;  // fewer cells for few points
+constexpr double sampled_per_cell = 8.0;
 
 // Means of what is around a node are off where that is not around it evenly: once more, then.
 constexpr int corrections = 2;
@@ -32,19 +34,21 @@ void MotionField::reserve(std::size_t points) {
   weights_.reserve(most_nodes);
   sums_.reserve(most_nodes);
   are_known_.reserve(most_nodes);
-  terms_.reserve(std::size_t{most_cells} * most_cells * most_cells);
+  constexpr std::size_t all_cells = std::size_t{most_cells} * most_cells * most_cells;
+  terms_.reserve(all_cells);
+  first_nodes_.reserve(all_cells);
 }
 
 void MotionField::start(const std::vector<Vector3d>& points, const Vector3d& lower,
                         const Vector3d& upper) {
   lower_ = lower;
   upper_ = upper;
-  stride_ = 1 + points.size() / most_sampled;
+  stride_ = std::max(sampled_of, 1 + points.size() / most_sampled);
   const Vector3d extents = upper - lower;
   const double extent = extents.maxCoeff();
-  const double cells =
-      std::clamp(std::round(std::cbrt(static_cast<double>(points.size()) / points_per_cell)), 1.0,
-                 double{most_cells});
+  const double cells = std::clamp(
+      std::round(std::cbrt(static_cast<double>(points.size() / stride_) / sampled_per_cell)), 1.0,
+      double{most_cells});
   // Cells are cubes: a flat scene has one layer of them.
   cells_per_meter_ = extent > 0.0 ? cells / extent : 1.0;
   std::size_t cell_count = 1;
@@ -60,6 +64,7 @@ void MotionField::start(const std::vector<Vector3d>& points, const Vector3d& low
   sums_.resize(node_count);
   are_known_.resize(node_count);
   terms_.resize(cell_count);
+  find_corners();
   find_terms();
 }
 
@@ -94,16 +99,11 @@ void MotionField::correct(const std::vector<Vector3d>& before, const std::vector
     Vector3d part;
     const std::size_t cell = cell_of(before[i], part);
     const Vector3d off = now[i] - before[i] - value(cell, part);
-    const std::size_t x = cell % cells_[0];
-    const std::size_t y = cell / cells_[0] % cells_[1];
-    const std::size_t z = cell / cells_[0] / cells_[1];
     for (std::size_t corner = 0; corner < 8; ++corner) {
-      double weight = 1.0;
-      for (int axis = 0; axis < 3; ++axis) {
-        weight *= (corner >> axis & 1U) != 0 ? part[axis] : 1.0 - part[axis];
-      }
-      const std::size_t at =
-          node(x + (corner & 1U), y + (corner >> 1U & 1U), z + (corner >> 2U & 1U));
+      const double weight = ((corner & 1U) != 0 ? part.x() : 1.0 - part.x()) *
+                            ((corner & 2U) != 0 ? part.y() : 1.0 - part.y()) *
+                            ((corner & 4U) != 0 ? part.z() : 1.0 - part.z());
+      const std::size_t at = first_nodes_[cell] + corner_nodes_[corner];
       weights_[at] += weight;
       sums_[at] += weight * off;
     }
@@ -151,40 +151,52 @@ Vector3d MotionField::mean_around(std::size_t here) const {
   return sum / count;
 }
 
-/// Calls function(cell, displacements at its corners), bit a of whose index is that of axis a.
-template <class Function>
-void MotionField::for_each_cell(const Function& function) const {
-  std::size_t cell = 0;
+/// Of each cell the first node, and where the nodes at its corners are from there: bit a of a
+/// corner's index is that of axis a.
+void MotionField::find_corners() {
+  const std::size_t along_y = cells_[0] + 1;
+  const std::size_t along_z = along_y * (cells_[1] + 1);
+  first_nodes_.clear();
   for (std::size_t z = 0; z < cells_[2]; ++z) {
     for (std::size_t y = 0; y < cells_[1]; ++y) {
       for (std::size_t x = 0; x < cells_[0]; ++x) {
-        Terms corners;
-        for (std::size_t i = 0; i < corners.size(); ++i) {
-          corners[i] = nodes_[node(x + (i & 1U), y + (i >> 1U & 1U), z + (i >> 2U & 1U))];
+        first_nodes_.push_back(z * along_z + y * along_y + x);
+      }
+    }
+  }
+  for (std::size_t i = 0; i < corner_nodes_.size(); ++i) {
+    corner_nodes_[i] = (i & 1U) + (i >> 1U & 1U) * along_y + (i >> 2U & 1U) * along_z;
+  }
+}
+
+/// The displacements at the corners of a cell.
+MotionField::Terms MotionField::corners_of(std::size_t cell) const {
+  Terms corners;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    corners[i] = nodes_[first_nodes_[cell] + corner_nodes_[i]];
+  }
+  return corners;
+}
+
+void MotionField::find_terms() {
+  for (std::size_t cell = 0; cell < terms_.size(); ++cell) {
+    Terms& terms = terms_[cell];
+    terms = corners_of(cell);
+    for (const std::size_t bit : {1U, 2U, 4U}) {
+      for (std::size_t i = 0; i < terms.size(); ++i) {
+        if ((i & bit) != 0) {
+          terms[i] -= terms[i ^ bit];
         }
-        function(cell++, corners);
       }
     }
   }
 }
 
-void MotionField::find_terms() {
-  for_each_cell([&](std::size_t cell, Terms corners) {
-    for (const std::size_t bit : {1U, 2U, 4U}) {
-      for (std::size_t i = 0; i < corners.size(); ++i) {
-        if ((i & bit) != 0) {
-          corners[i] -= corners[i ^ bit];
-        }
-      }
-    }
-    terms_[cell] = corners;
-  });
-}
-
 /// Along an axis the field changes the most at an edge of a cell.
 void MotionField::find_bounds() {
   double squared = 0.0;
-  for_each_cell([&](std::size_t /*cell*/, const Terms& corners) {
+  for (std::size_t cell = 0; cell < terms_.size(); ++cell) {
+    const Terms corners = corners_of(cell);
     double of_cell = 0.0;
     for (const std::size_t bit : {1U, 2U, 4U}) {
       double of_axis = 0.0;
@@ -196,7 +208,7 @@ void MotionField::find_bounds() {
       of_cell += of_axis;
     }
     squared = std::max(squared, of_cell);
-  });
+  }
   rate_ = (1.0 + 32.0 * epsilon) * std::sqrt(squared) * cells_per_meter_;
   drift_ = Vector3d::Zero();
   for (const Vector3d& displacement : nodes_) {
@@ -216,7 +228,7 @@ void MotionField::find_bounds() {
 std::size_t MotionField::memory_bytes() const {
   return (nodes_.capacity() + sums_.capacity()) * sizeof(Vector3d) +
          weights_.capacity() * sizeof(double) + are_known_.capacity() +
-         terms_.capacity() * sizeof(Terms);
+         terms_.capacity() * sizeof(Terms) + first_nodes_.capacity() * sizeof(std::size_t);
 }
 
 }  // namespace fiber

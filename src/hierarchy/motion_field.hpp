@@ -78,11 +78,8 @@ class MotionField {
            ((c[3] * x + c[2]) * y + (c[1] * x + c[0]));
   }
 
-  std::size_t node(std::size_t x, std::size_t y, std::size_t z) const {
-    return (z * (cells_[1] + 1) + y) * (cells_[0] + 1) + x;
-  }
-  template <class Function>
-  void for_each_cell(const Function& function) const;
+  void find_corners();
+  Terms corners_of(std::size_t cell) const;
   void correct(const std::vector<Eigen::Vector3d>& before, const std::vector<Eigen::Vector3d>& now);
   void fill();
   Eigen::Vector3d mean_around(std::size_t here) const;
@@ -93,7 +90,9 @@ class MotionField {
   Eigen::Vector3d upper_ = Eigen::Vector3d::Zero();
   double cells_per_meter_ = 1.0;
   std::array<std::size_t, 3> cells_{1, 1, 1};
-  std::size_t stride_ = 1;  // of the sample
+  std::array<std::size_t, 8> corner_nodes_{};
+  std::vector<std::size_t> first_nodes_;  // by cell
+  std::size_t stride_ = 1;                // of the sample
   std::vector<Eigen::Vector3d> nodes_;
   std::vector<double> weights_;          // of the sample, by node
   std::vector<Eigen::Vector3d> sums_;    // of what the sample is off, by node

@@ -165,10 +165,11 @@ SearchSize ContactBatch::estimate(const RunTreeView& tree, const NarrowPhase& te
   });
   if (count.is_too_much()) {
     constexpr double too_many = std::numeric_limits<double>::infinity();
-    return {too_many, too_many};
+    return {too_many, too_many, 0.0};
   }
   SearchSize size;
   const double scale = searched == 0 ? 0.0 : static_cast<double>(groups) / searched;
+  size.part = searched == 0 ? 0.0 : 1.0 / scale;
   for (std::uint32_t index = 0; index < searched; ++index) {
     size.overlaps += scale * static_cast<double>(jobs_[index].counts.node_overlaps);
     size.pairs += scale * static_cast<double>(jobs_[index].keys.size());

@@ -15,6 +15,7 @@ namespace {
 // are not near, which those of the others come with, had nothing to explain.
 constexpr double fit_ns = 24.0;      // a segment
 constexpr double motion_ns = 12.0;   // a point
+constexpr double begin_ns = 14.0;    // a point, to note where it is and that it has moved too far
 constexpr double overlap_ns = 63.0;  // a box that is near, with all that is done about it
 constexpr double find_ns = 163.0;    // a pair that a search comes upon, its sorting included
 constexpr double judge_ns = 41.0;    // a pair
@@ -22,6 +23,7 @@ constexpr double judge_ns = 41.0;    // a pair
 constexpr double first_frames = 4.0;  // that the first skin thought of lasts for
 constexpr double least_frames = 2.0;
 constexpr double most_frames = 4096.0;
+constexpr double usual_estimates = 4.0;
 constexpr double reserve = 1.05;             // by which points may move more than they did
 constexpr double step = 1.5;                 // from one skin that is thought of to the next
 constexpr double least_skin = 1e-150;        // [m]
@@ -166,9 +168,11 @@ double SkinChoice::cost(double frames, const FiberAssembly& fibers,
   if (frames == 0.0) {
     return find + judge;
   }
-  // Points may not go on as they began.
-  return find / std::max(1.0, frames * lasted_) +
-         motion_ns * static_cast<double>(fibers.point_count()) + judge;
+  const auto points = static_cast<double>(fibers.point_count());
+  // Points may not go on as they began. A choice takes some estimates.
+  const double stretch = std::max(1.0, frames * lasted_);
+  const double choice = usual_estimates * search.part * find / next_kept_for_;
+  return (find + begin_ns * points + choice) / stretch + motion_ns * points + judge;
 }
 
 /// [m] How far those segments have moved that the skin is for: by some fibres, spread over all.

@@ -18,6 +18,7 @@ namespace fiber {
 struct SearchSize {
   double overlaps = 0.0;  ///< boxes of nodes and runs that are near others
   double pairs = 0.0;     ///< that it comes upon
+  double part = 0.0;      ///< of it that was searched to tell
 };
 
 /// Chooses the skin for the next frames, unless the user has chosen.
