@@ -23,7 +23,6 @@ constexpr double judge_ns = 41.0;    // a pair
 constexpr double first_frames = 4.0;  // that the first skin thought of lasts for
 constexpr double least_frames = 2.0;
 constexpr double most_frames = 4096.0;
-constexpr double usual_estimates = 4.0;
 constexpr double reserve = 1.05;             // by which points may move more than they did
 constexpr double step = 1.5;                 // from one skin that is thought of to the next
 constexpr double least_skin = 1e-150;        // [m]
@@ -114,10 +113,14 @@ void SkinChoice::decide(const FiberAssembly& fibers, const Estimate& estimate) {
 
 void SkinChoice::choose(const FiberAssembly& fibers, const Estimate& estimate) {
   double best = 0.0;
-  double least = (1.0 - least_gain) * cost(0.0, fibers, estimate(0.0));
+  const SearchSize search_without = estimate(0.0);
+  const double without = cost(0.0, fibers, search_without);
+  double least = (1.0 - least_gain) * without;
+  double estimated = search_without.part;  // searches
   const auto is_better = [&](double frames) {
     const SearchSize search = estimate(skin_of(frames));
     const double now = cost(frames, fibers, search);
+    estimated += search.part;
     if (now >= least) {
       return false;
     }
@@ -136,7 +139,8 @@ void SkinChoice::choose(const FiberAssembly& fibers, const Estimate& estimate) {
   while (best <= begin && frames >= least_frames && (is_better(frames) || best == 0.0)) {
     frames = std::round(frames / step);
   }
-  if (best == 0.0) {
+  // Where there is little to search, a choice takes as much as some searches do.
+  if (best == 0.0 || (without - least) * best * longest_kept < estimated * without) {
     do_without();
     return;
   }
@@ -169,10 +173,8 @@ double SkinChoice::cost(double frames, const FiberAssembly& fibers,
     return find + judge;
   }
   const auto points = static_cast<double>(fibers.point_count());
-  // Points may not go on as they began. A choice takes some estimates.
-  const double stretch = std::max(1.0, frames * lasted_);
-  const double choice = usual_estimates * search.part * find / next_kept_for_;
-  return (find + begin_ns * points + choice) / stretch + motion_ns * points + judge;
+  // Points may not go on as they began.
+  return (find + begin_ns * points) / std::max(1.0, frames * lasted_) + motion_ns * points + judge;
 }
 
 /// [m] How far those segments have moved that the skin is for: by some fibres, spread over all.

@@ -211,17 +211,10 @@ TEST(MovingTogether, SeesThatAWiderMarginNeedsMore) {
   constexpr double margin = 5.0;
   constexpr double skin = 0.03;
   const auto frame = [&](double scale) {
-    std::vector<std::vector<Vector3d>> fibers = rows(30, 0.15);
-    for (std::size_t i = 15; i < fibers.size(); ++i) {
-      for (Vector3d& point : fibers[i]) {
-        point.y() -= 15 * 0.15;
-        point.z() += margin + 1.3 * skin;
-      }
-    }
-    for (std::vector<Vector3d>& points : fibers) {
-      for (Vector3d& point : points) {
-        point *= scale;
-      }
+    std::vector<std::vector<Vector3d>> fibers(2);
+    for (int i = 0; i < 2000; ++i) {
+      fibers[0].push_back(scale * Vector3d(0.002 * i, 0.0, 0.0));
+      fibers[1].push_back(scale * Vector3d(0.002 * i, 0.0, margin + 1.3 * skin));
     }
     return as_fibers(fibers, 0.0);
   };
@@ -234,7 +227,7 @@ TEST(MovingTogether, SeesThatAWiderMarginNeedsMore) {
   EXPECT_EQ(engine.refit_count(), 1U);
   QueryOptions options = within(margin);
   options.pairing = Pairing::DIFFERENT_FIBERS;
-  expect_contacts(engine, fibers, options, 3000);
+  expect_contacts(engine, fibers, options, 1000);
 }
 
 /// Short fibres rise in the middle of a carpet, to one long fibre above them whose ends stay: all
