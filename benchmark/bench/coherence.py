@@ -9,7 +9,7 @@ from .tables import read_csv, rounded, scene_title, shown, write_csv, write_tabl
 HEADS = ("charming", "curly", "windy", "longish")
 OTHERS = ("tress_a", "tress_b", "cloth", "soup")
 MOTION = 0.02  # mean segment lengths per frame
-SKINS = "0,0.06,0.09,0.12,0.18,0.24,0.48"  # mean segment lengths
+SKINS = "0,0.03,0.06,0.12,0.24"  # mean segment lengths
 THREADS = 2
 PEER = "embree_refit"  # the fastest of Embree's settings on every scene of peers.py
 COLUMNS = [("scene", scene_title), ("segments", "segments"), ("without skin [ms]", rounded("without_ms")),
@@ -32,8 +32,8 @@ class Plan:
         return [skins_run(scene, scale, SKINS, self.frames) for scene, scale in scales.items()]
 
 
-FULL = Plan(0.1, 1.0, 60, 30.0)
-QUICK = Plan(0.01, 0.02, 60, 1.0)
+FULL = Plan(0.1, 1.0, 48, 30.0)
+QUICK = Plan(0.01, 0.02, 48, 1.0)
 
 
 def skins_run(scene, scale, skins, frames):

@@ -35,7 +35,7 @@ for engine, skin in [*(("run_tree", skin) for skin in skins), (option("--engines
         "frames": int(option("--frames")), "motion": float(option("--motion")),
         "threads": int(option("--threads")), "skin_lengths": skin,
         "cycle_ms": 20 if skin is None else 2.5 if skin == "automatic" else 8 if skin == 0 else 2 + 10 * abs(skin - 0.12),
-        "refits": None if skin is None else 60 if skin == 0 else 15}))
+        "refits": None if skin is None else 48 if skin == 0 else 15}))
 """
 
 
@@ -58,7 +58,7 @@ class CoherenceTest(BenchTestCase):
 
     def test_the_table_names_the_best_skin_and_what_it_is_worth(self):
         table = self.quick()
-        self.assertIn("| soup ×0.02 | 4200 | 8 | 0.12 | 2 | 2.5 | 3.2× | 15 of 60 | 8.0× |", table)
+        self.assertIn("| soup ×0.02 | 4200 | 8 | 0.12 | 2 | 2.5 | 3.2× | 15 of 48 | 8.0× |", table)
         self.assertEqual((self.folder / "out" / "coherence.md").read_text(), table)
 
     def test_rows_are_relative_to_no_skin(self):
