@@ -41,7 +41,7 @@ def skins_run(scene, scale, skins, frames):
     return Run(f"{scene} ×{scale:g}, {THREADS} thread(s)",
                f"{{tool}} coherence --scene {scene} --scale {scale} --motion {MOTION} --skins {skins} "
                f"--engines {PEER} --frames {frames} --threads {THREADS} --json",
-               # Nothing is printed before all frames are done; warming up counts for a frame.
+               # Nothing is printed before all frames are done, four of warming up among them.
                patience=(len(skins.split(",")) + 2) * (frames + 4))
 
 
