@@ -206,8 +206,7 @@ void Environment::query(const FiberAssembly& fibers, const QueryOptions& options
         whole, all.end, points_per_job, whole.shrinks() ? points_per_job : all.end,
         // While it waits, a thread must not begin with another query of whoever asked this one.
         [](const auto& work) { tbb::this_task_arena::isolate(work); },
-        [&](SearchJob<EnvironmentQuery>& job, QueryCounts& /*counts*/, std::uint32_t begin,
-            std::uint32_t end) {
+        [&](SearchJob<EnvironmentQuery>& job, std::uint32_t begin, std::uint32_t end) {
           for_each_run(fibers, {begin, end}, job.part(), [&](const SegmentRun& run) {
             if (job.goes_on(16)) {
               offer(job.part(), run);

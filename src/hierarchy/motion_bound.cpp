@@ -32,6 +32,16 @@ double largest_of(const FiberAssembly& fibers, const Value& value) {
       [](double a, double b) { return std::max(a, b); });
 }
 
+/// The largest squared(i) of some points.
+template <class Squared>
+double largest_of(std::uint32_t begin, std::uint32_t end, const Squared& squared) {
+  double largest = 0.0;
+  for (std::uint32_t i = begin; i < end; ++i) {
+    largest = std::max(largest, squared(i));
+  }
+  return largest;
+}
+
 /// The root of a sum of squares, or more. Squares round by less than 4 u; those too small for them
 /// are covered by the smallest normal.
 double root_above(double squared) {
@@ -53,13 +63,7 @@ void MotionBound::start(const FiberAssembly& fibers, const Eigen::Vector3d& lowe
   points_ = fibers.points();
   radii_ = fibers.radii();
   by_fiber_.assign(fibers.fiber_count(), 0.0);
-  longest_segment_ = root_above(largest_of(fibers, [&](std::uint32_t fiber) {
-    double squared = 0.0;
-    for (std::size_t i = fibers.offsets()[fiber]; i + 1 < fibers.offsets()[fiber + 1]; ++i) {
-      squared = std::max(squared, (points_[i + 1] - points_[i]).squaredNorm());
-    }
-    return squared;
-  }));
+  longest_segment_.reset();
   // Segments beyond the range of float have boxes without end.
   has_field_ = !points_.empty() && (upper - lower).allFinite();
   if (has_field_) {
@@ -83,6 +87,9 @@ MotionSinceFit MotionBound::measure(const FiberAssembly& fibers, double skin, do
   beside_others_ = std::numeric_limits<double>::infinity();
   // A sample tells whether it takes more than to see how far each has moved.
   if (has_field_ && 2.0 * field_.sampled_motion(points_, fibers.points()) > skin) {
+    if (!longest_segment_) {
+      longest_segment_ = longest_segment(fibers);
+    }
     const MotionSinceFit beside =
         beside_field(fibers, off_field(fibers, field_.follow(points_, fibers.points())));
     const double nearer = beside.approach.before(margin) - margin;
@@ -97,12 +104,18 @@ MotionSinceFit MotionBound::measure(const FiberAssembly& fibers, double skin, do
 MotionSinceFit MotionBound::measure_alone(const FiberAssembly& fibers) {
   has_by_fiber_ = true;
   return MotionSinceFit::within(largest_of(fibers, [&](std::uint32_t fiber) {
-    double squared = 0.0;
-    for (std::size_t i = fibers.offsets()[fiber]; i < fibers.offsets()[fiber + 1]; ++i) {
-      squared = std::max(squared, (fibers.points()[i] - points_[i]).squaredNorm());
-    }
-    by_fiber_[fiber] = root_above(squared);
+    by_fiber_[fiber] = root_above(largest_of(
+        fibers.offsets()[fiber], fibers.offsets()[fiber + 1],
+        [&](std::uint32_t i) { return (fibers.points()[i] - points_[i]).squaredNorm(); }));
     return by_fiber_[fiber];
+  }));
+}
+
+/// [m] Where motion is measured from, rounded up.
+double MotionBound::longest_segment(const FiberAssembly& fibers) const {
+  return root_above(largest_of(fibers, [&](std::uint32_t fiber) {
+    return largest_of(fibers.offsets()[fiber], fibers.offsets()[fiber + 1] - 1,
+                      [&](std::uint32_t i) { return (points_[i + 1] - points_[i]).squaredNorm(); });
   }));
 }
 
@@ -112,7 +125,7 @@ double MotionBound::off_field(const FiberAssembly& fibers, double sampled) const
   // Some points share what the field is at the first of them, where it changes that little.
   constexpr double shared_part = 0.1;
   constexpr double most_shared = 15.0;
-  const double change = field_.rate() * longest_segment_;
+  const double change = field_.rate() * *longest_segment_;
   const double others = std::floor(std::min(most_shared, shared_part * sampled / change));
   const auto count = 1 + static_cast<std::uint32_t>(others > 0.0 ? others : 0.0);
   const double off = root_above(largest_of(fibers, [&](std::uint32_t fiber) {
@@ -120,9 +133,10 @@ double MotionBound::off_field(const FiberAssembly& fibers, double sampled) const
     const std::uint32_t end = fibers.offsets()[fiber + 1];
     for (std::uint32_t first = fibers.offsets()[fiber]; first < end; first += count) {
       const Eigen::Vector3d field = field_.at(points_[first]);
-      for (std::uint32_t i = first; i < std::min(end, first + count); ++i) {
-        squared = std::max(squared, (fibers.points()[i] - points_[i] - field).squaredNorm());
-      }
+      squared =
+          std::max(squared, largest_of(first, std::min(end, first + count), [&](std::uint32_t i) {
+                     return (fibers.points()[i] - points_[i] - field).squaredNorm();
+                   }));
     }
     return squared;
   }));
@@ -133,7 +147,7 @@ double MotionBound::off_field(const FiberAssembly& fibers, double sampled) const
 MotionSinceFit MotionBound::beside_field(const FiberAssembly& fibers, double off) const {
   const double of_points = off + field_.rounding();
   // Between the ends of a segment the field may be off by what it changes along half of it.
-  const double way = 2.0 * of_points + field_.rate() * longest_segment_;
+  const double way = 2.0 * of_points + field_.rate() * *longest_segment_;
   return {field_.drift(), field_.beyond_drift() + of_points,
           Approach(way, field_.rate(), 2.0 * fibers.largest_radius())};
 }

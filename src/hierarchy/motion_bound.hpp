@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
@@ -46,13 +47,14 @@ class MotionBound {
   MotionSinceFit measure_alone(const FiberAssembly& fibers);
   MotionSinceFit beside_field(const FiberAssembly& fibers, double off) const;
   double off_field(const FiberAssembly& fibers, double sampled) const;
+  double longest_segment(const FiberAssembly& fibers) const;
 
   std::vector<Eigen::Vector3d> points_;
   std::vector<double> radii_;
   std::vector<double> by_fiber_;
   bool has_by_fiber_ = false;
   double beside_others_ = 0.0;
-  double longest_segment_ = 0.0;  // [m]
+  std::optional<double> longest_segment_;  // [m] found when a field first asks for it
   bool has_field_ = false;
   MotionField field_;
 };

@@ -10,6 +10,7 @@
 #include "src/hierarchy/run_tree_kernels.hpp"
 #include "src/query/motion_evaluator.hpp"
 #include "src/query/pair_sinks.hpp"
+#include "src/query/run_tree_boxes.hpp"
 #include "src/query/threads.hpp"
 
 namespace fiber {
@@ -23,31 +24,17 @@ void check_ways(const RunTree& tree, const FiberAssembly& before, const FiberAss
   }
 }
 
-Eigen::Vector3d corner(const float (&by_axis)[3][run_width], std::uint32_t lane) {
-  return {by_axis[0][lane], by_axis[1][lane], by_axis[2][lane]};
-}
-
-NodeBox box_of(const RunTree& tree, const RunTreeLevel& level, std::uint32_t child) {
-  const BoxBlock& block = level.boxes[child / run_width];
-  return {tree.origin() + corner(block.lower, child % run_width),
-          tree.origin() + corner(block.upper, child % run_width)};
-}
-
-/// Around all segments; a point without any.
-NodeBox box_of(const RunTree& tree) {
-  NodeBox box{tree.origin(), tree.origin()};
-  const RunTreeView& view = tree.view();
-  if (view.level_count == 0) {
-    return box;
+/// A shape's tree beside that of the fibres, which has them where they were: so has the shape's,
+/// but for what they have in common.
+struct ShapeTree {
+  ShapeTree(const FiberAssembly& shape, const RunTree& fibers, const MotionSinceFit& since)
+      : approach(since.beyond) {
+    tree.build({shape, fibers.origin() + since.drift});
   }
-  const RunTreeLevel& top = view.levels[view.level_count - 1];
-  box = box_of(tree, top, 0);
-  for (std::uint32_t child = 1; child < top.child_count; ++child) {
-    const NodeBox other = box_of(tree, top, child);
-    box = {box.lower.cwiseMin(other.lower), box.upper.cwiseMax(other.upper)};
-  }
-  return box;
-}
+
+  RunTree tree;
+  const Approach approach;
+};
 
 // Replacing the candidates of more segments than this part of all takes longer than finding all.
 constexpr double max_dirty_part = 0.25;
@@ -114,15 +101,9 @@ void RunTreeEngine::begin_to_serve(const FiberAssembly& fibers) {
   moved_before_fit_ = 0.0;
   cache_.become(CandidateCache::State::NONE);
   if (skin_.asks_for_motion()) {
-    const NodeBox box = box_of(tree_);
+    const NodeBox box = run_tree_box(tree_);
     motion_.start(fibers, box.lower, box.upper);
   }
-}
-
-/// Of the fibres since the tree was fitted.
-MotionSinceFit RunTreeEngine::since_fit() const {
-  return moved_before_fit_ > 0.0 ? MotionSinceFit::within(moved_.beyond + moved_before_fit_)
-                                 : moved_;
 }
 
 /// Whether the points are close enough to where the tree has them; notes how close.
@@ -195,18 +176,14 @@ void RunTreeEngine::do_query(const FiberAssembly& fibers, const QueryOptions& op
 
 void RunTreeEngine::do_query_shape(const FiberAssembly& shape, const FiberAssembly& fibers,
                                    const QueryOptions& options, QueryResult& result) const {
-  // The tree has the fibres where they were: so does the shape's, but for the drift.
-  const MotionSinceFit since = since_fit();
-  const Approach approach(since.beyond);
-  RunTree shape_tree;
-  shape_tree.build({shape, tree_.origin() + since.drift});
+  const ShapeTree other(shape, tree_, since_fit());
   QueryOptions left = options;
   if (options.type == QueryType::ALL) {
     const QueryLimits limits(options);
     const NarrowPhase test(shape, fibers, options);
     bool is_found = false;
     with_batch([&](ContactBatch& batch) {
-      is_found = batch.find(shape_tree.view(), tree_.view(), test, approach, limits, result);
+      is_found = batch.find(other.tree.view(), tree_.view(), test, other.approach, limits, result);
     });
     if (is_found) {
       return;
@@ -215,7 +192,7 @@ void RunTreeEngine::do_query_shape(const FiberAssembly& shape, const FiberAssemb
   }
   PairCollector collector(shape, fibers, left, result);
   searches_.lend([&](ShrinkingSearch& search) {
-    search.find(shape_tree.view(), tree_.view(), approach, arena_, collector, result);
+    search.find(other.tree.view(), tree_.view(), other.approach, arena_, collector, result);
   });
 }
 
@@ -230,13 +207,9 @@ void RunTreeEngine::offer_pairs(PairSink& sink, const std::function<bool()>& is_
 void RunTreeEngine::offer_pairs_with(const FiberAssembly& shape, PairSink& sink,
                                      const std::function<bool()>& is_over,
                                      QueryCounts& counts) const {
-  // The tree has the fibres where they were: so does the shape's, but for the drift.
-  const MotionSinceFit since = since_fit();
-  const Approach approach(since.beyond);
-  RunTree shape_tree;
-  shape_tree.build({shape, tree_.origin() + since.drift});
-  WideningSink wide(sink, approach);
-  find_near_segments_until(is_over, shape_tree.view(), 0, shape_tree.view().group_count(),
+  const ShapeTree other(shape, tree_, since_fit());
+  WideningSink wide(sink, other.approach);
+  find_near_segments_until(is_over, other.tree.view(), 0, other.tree.view().group_count(),
                            tree_.view(), wide, counts.node_tests, counts.node_overlaps);
 }
 
@@ -345,24 +318,7 @@ void RunTreeEngine::with_batch(const Call& call) const {
 }
 
 void RunTreeEngine::level_boxes(std::uint32_t level, std::vector<NodeBox>& boxes) const {
-  boxes.clear();
-  const RunTreeView& tree = tree_.view();
-  if (tree.level_count == 0) {
-    return;
-  }
-  const MotionSinceFit since = since_fit();
-  const auto add = [&](const NodeBox& box) {
-    boxes.push_back({box.lower + since.drift - Eigen::Vector3d::Constant(since.beyond),
-                     box.upper + since.drift + Eigen::Vector3d::Constant(since.beyond)});
-  };
-  if (level == 0) {
-    add(box_of(tree_));
-    return;
-  }
-  const RunTreeLevel& shown = tree.levels[tree.level_count - std::min(level, tree.level_count)];
-  for (std::uint32_t child = 0; child < shown.child_count; ++child) {
-    add(box_of(tree_, shown, child));
-  }
+  run_tree_boxes(tree_, since_fit(), level, boxes);
 }
 
 }  // namespace fiber

@@ -63,7 +63,11 @@ class FIBER_PROXIMITY_EXPORT RunTreeEngine final : public ProximityEngine {
   void start_anew(const FiberAssembly& fibers, const MotionBound* motion);
   void forget(const FiberAssembly& fibers);
   void begin_to_serve(const FiberAssembly& fibers);
-  MotionSinceFit since_fit() const;
+  /// Of the fibres since the tree was fitted.
+  MotionSinceFit since_fit() const {
+    return moved_before_fit_ > 0.0 ? MotionSinceFit::within(moved_.beyond + moved_before_fit_)
+                                   : moved_;
+  }
 
   struct Candidates {
     CandidateCache::Keys keys;

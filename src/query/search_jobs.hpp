@@ -51,10 +51,11 @@ class SearchRound {
 template <class Part>
 class SearchJob {
  public:
-  SearchJob(Part& part, SearchRound& round, std::uint32_t index)
-      : part_(part), round_(round), index_(index) {}
+  SearchJob(Part& part, QueryCounts& counts, SearchRound& round, std::uint32_t index)
+      : part_(part), counts_(counts), round_(round), index_(index) {}
 
   Part& part() { return part_; }
+  QueryCounts& counts() { return counts_; }  ///< of the part
 
   /// Tells the round what pairs the part has taken. @returns whether to go on
   bool look() {
@@ -72,6 +73,7 @@ class SearchJob {
 
  private:
   Part& part_;
+  QueryCounts& counts_;
   SearchRound& round_;
   const std::uint32_t index_;
   std::uint32_t calls_ = 0;
@@ -94,7 +96,7 @@ class SearchJobs {
   /// @param least   pieces of a job
   /// @param first   pieces of the first round
   /// @param execute calls what it is given, on the threads that are to work
-  /// @param find    calls (job, counts, begin, end) search pieces for a job
+  /// @param find    calls (job, begin, end) search pieces for a job
   /// @param alone   calls (begin, end) search pieces for the whole
   template <class Execute, class Find, class Alone>
   void search(Part& whole, std::uint32_t count, std::uint32_t least, std::uint32_t first,
@@ -127,9 +129,9 @@ class SearchJobs {
     SearchRound round(whole.pairs_left(), whole.wants_any());
     const auto run = [&](std::uint32_t index) {
       Part& part = *jobs_[index].part;
-      SearchJob<Part> job(part, round, index);
+      SearchJob<Part> job(part, jobs_[index].result.counts, round, index);
       const std::uint32_t first = begin + index * pieces;
-      find(job, jobs_[index].result.counts, first, std::min(end, first + pieces));
+      find(job, first, std::min(end, first + pieces));
       job.look();
       round.end(index, part.done());
     };

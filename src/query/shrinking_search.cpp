@@ -26,11 +26,10 @@ void ShrinkingSearch::find(const RunTreeView& a, const RunTreeView& b, const App
   jobs_.search(
       whole, a.group_count(), least_groups, least_groups,
       [&](const auto& work) { arena.execute(work); },
-      [&](SearchJob<PairCollector>& job, QueryCounts& counts, std::uint32_t begin,
-          std::uint32_t end) {
+      [&](SearchJob<PairCollector>& job, std::uint32_t begin, std::uint32_t end) {
         JobSink job_sink(job, approach);
         find_near_segments_until([&] { return job.is_over(); }, a, begin, end, b, job_sink,
-                                 counts.node_tests, counts.node_overlaps);
+                                 job.counts().node_tests, job.counts().node_overlaps);
       },
       [&](std::uint32_t begin, std::uint32_t end) {
         find_near_segments_until([&] { return whole.done_by_now(); }, a, begin, end, b, sink,
