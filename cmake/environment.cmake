@@ -21,6 +21,7 @@ add_library(fiber_proximity_environment SHARED
   src/environment/obstacle_parts.cpp
   src/environment/occupancy_octree.cpp
   src/environment/shape_contact_time.cpp
+  src/environment/shape_boxes.cpp
   src/environment/shape_motion.cpp
   src/environment/shapes.cpp
   src/environment/triangle_distance.cpp

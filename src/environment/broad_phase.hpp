@@ -1,17 +1,11 @@
 #pragma once
 
-#include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
-#include <fcl/geometry/shape/sphere.h>
-#include <fcl/narrowphase/collision_object.h>
-
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
-#include <limits>
-#include <memory>
 #include <vector>
 
 #include "fiber_proximity/environment/environment.hpp"
+#include "src/environment/shape_boxes.hpp"
 #include "src/environment/world_shape.hpp"
 
 namespace fiber {
@@ -55,80 +49,23 @@ inline PointRange all_points(const FiberAssembly& fibers) {
   return {0, static_cast<std::uint32_t>(fibers.point_count())};
 }
 
-/// Finds the shapes near a box: those that end somewhere in FCL's dynamic AABB tree, the others are
-/// near everything.
-class Environment::BroadPhase {
- public:
+/// All shapes of some objects, and those of them that are near a box.
+struct Environment::BroadPhase {
   explicit BroadPhase(const std::vector<EnvironmentObject>& objects) {
     for (std::uint32_t i = 0; i < objects.size(); ++i) {
       for (std::uint32_t j = 0; j < objects[i].shapes.size(); ++j) {
-        shapes_.emplace_back(objects[i], i, j);
+        shapes.emplace_back(objects[i], i, j);
       }
     }
-    boxes_.reserve(shapes_.size());
-    std::vector<fcl::CollisionObjectd*> bounded;
-    for (const WorldShape& shape : shapes_) {
-      if (is_bounded(shape.shape)) {
-        bounded.push_back(&boxes_.emplace_back(shape.box, &shape));
-      } else {
-        unbounded_.push_back(&shape);
-      }
+    boxes.reserve(shapes.size());
+    for (const WorldShape& shape : shapes) {
+      boxes.add(shape, shape.box);
     }
-    tree_.registerObjects(bounded);
-    tree_.setup();
+    boxes.build();
   }
 
-  /// By object, then by their index in it.
-  const std::vector<WorldShape>& shapes() const { return shapes_; }
-
-  /// Calls visit(shape) for the shapes near the box, nearer ones first, roughly. visit() returns
-  /// how far they may be from then on [m]; boxes that overlap are never too far, unless it returns
-  /// minus infinity: that ends the search.
-  template <class Visit>
-  void visit_near(const WorldBox& box, Visit visit) const {
-    for (const WorldShape* shape : unbounded_) {
-      visit(*shape);
-    }
-    BoxObject query(box, nullptr);
-    tree_.distance(&query, &visit, &look<Visit>);
-  }
-
- private:
-  /// An object whose box is set, not computed from a geometry: FCL offers no other way to give a
-  /// rotated object a tight one.
-  class BoxObject final : public fcl::CollisionObjectd {
-   public:
-    BoxObject(const WorldBox& box, const WorldShape* shape)
-        : CollisionObject(any_geometry()), shape_(shape) {
-      aabb.min_ = box.min();
-      aabb.max_ = box.max();
-    }
-    const WorldShape& shape() const { return *shape_; }
-
-   private:
-    static const std::shared_ptr<fcl::CollisionGeometryd>& any_geometry() {
-      static const std::shared_ptr<fcl::CollisionGeometryd> sphere =
-          std::make_shared<fcl::Sphered>(0.0);
-      return sphere;
-    }
-    const WorldShape* shape_;
-  };
-
-  /// @param least FCL goes on to boxes that are nearer than this
-  /// @return whether to end
-  template <class Visit>
-  static bool look(fcl::CollisionObjectd* object, fcl::CollisionObjectd* /*query*/, void* visit,
-                   double& least) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    const double within = (*static_cast<Visit*>(visit))(static_cast<BoxObject*>(object)->shape());
-    least = std::nextafter(std::max(within, 0.0), infinity);
-    return within == -infinity;
-  }
-
-  std::vector<WorldShape> shapes_;
-  std::vector<const WorldShape*> unbounded_;
-  std::vector<BoxObject> boxes_;
-  fcl::DynamicAABBTreeCollisionManagerd tree_;
+  std::vector<WorldShape> shapes;  // by object, then by their index in it
+  ShapeBoxes boxes;
 };
 
 }  // namespace fiber

@@ -82,6 +82,9 @@ class EnvironmentQuery {
     return reach_of(run);
   }
 
+  /// [m] Shapes further than this from the axes of the run do not matter.
+  double reach_of(const SegmentRun& run) const { return accumulator_.bound() + run.radius; }
+
   static constexpr std::uint32_t segments_per_run = 8;
 
   WorldBox box_of(std::uint32_t begin, std::uint32_t end) const {
@@ -113,7 +116,6 @@ class EnvironmentQuery {
   void finish() { accumulator_.finish(-std::numeric_limits<double>::infinity()); }
 
  private:
-  double reach_of(const SegmentRun& run) const { return accumulator_.bound() + run.radius; }
   void offer_segment(const SegmentRun& run, std::uint32_t point, const WorldShape& shape) {
     const std::uint32_t first = fibers_.offsets()[run.fiber];
     if (allowed_.holds(fibers_, {run.fiber, point - first}, shape.object)) {
@@ -192,8 +194,9 @@ void Environment::query(const FiberAssembly& fibers, const QueryOptions& options
   const AllowedParts parts(allowed, objects_);
   EnvironmentQuery whole(fibers, options, parts, result);
   const auto offer = [&](EnvironmentQuery& query, const SegmentRun& run) {
-    broad_phase_->visit_near(run.box,
-                             [&](const WorldShape& shape) { return query.offer(run, shape); });
+    broad_phase_->boxes.visit_near(run.box, query.reach_of(run), [&](const WorldShape& shape) {
+      return query.offer(run, shape);
+    });
   };
   const auto alone = [&](std::uint32_t begin, std::uint32_t end) {
     for_each_run(fibers, {begin, end}, whole, [&](const SegmentRun& run) { offer(whole, run); });

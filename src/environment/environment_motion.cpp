@@ -273,19 +273,20 @@ void Environment::query_motion(const std::vector<ObjectPath>& paths, const Fiber
   result.touching.clear();
   std::optional<MovingShapes> moving;
   if (!paths.empty()) {
-    moving.emplace(broad_phase_->shapes(), paths, box_around(motion, options.margin));
+    moving.emplace(broad_phase_->shapes, paths, box_around(motion, options.margin));
   }
-  EnvironmentMotion query(motion, broad_phase_->shapes(), moving ? &*moving : nullptr, objects_,
+  EnvironmentMotion query(motion, broad_phase_->shapes, moving ? &*moving : nullptr, objects_,
                           options, allowed);
   for_each_run(motion.before, all_points(motion.before), query, [&](const SegmentRun& run) {
+    const double within = query.within(run.radius);
     if (!moving || !moving->are_all()) {
-      broad_phase_->visit_near(run.box, [&](const WorldShape& shape) {
-        return query.moves(shape) ? query.within(run.radius) : query.offer(run, shape);
+      broad_phase_->boxes.visit_near(run.box, within, [&](const WorldShape& shape) {
+        return query.moves(shape) ? within : query.offer(run, shape);
       });
     }
     if (moving) {
-      moving->visit_near(run.box, query.within(run.radius),
-                         [&](const WorldShape& shape) { query.offer(run, shape); });
+      moving->boxes().visit_near(run.box, within,
+                                 [&](const WorldShape& shape) { return query.offer(run, shape); });
     }
   });
   query.evaluate(result);

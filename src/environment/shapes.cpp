@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 
@@ -25,26 +26,26 @@ constexpr double unit_tolerance = 1e-6;
   throw std::invalid_argument(message.str());
 }
 
-void check_length(const std::string& what, double length) {
+void check_length(const char* what, double length) {
   if (!FiberAssembly::is_valid_radius(length)) {
     refuse(what, length, "finite, at least 0 and at most 1e150 m");
   }
 }
 
-void check_sheet(const std::string& what, const Vector3d& normal, double offset) {
+void check_sheet(const char* what, const Vector3d& normal, double offset) {
   if (!(std::abs(normal.norm() - 1.0) <= unit_tolerance)) {
-    refuse("length of the " + what + "'s normal", normal.norm(), "1");
+    refuse(std::string("length of the ") + what + "'s normal", normal.norm(), "1");
   }
   if (!FiberAssembly::is_valid_coordinate(offset)) {
-    refuse("offset of the " + what, offset, "finite and at most 1e150 m in magnitude");
+    refuse(std::string("offset of the ") + what, offset, "finite and at most 1e150 m in magnitude");
   }
 }
 
 struct Check {
   void operator()(const BoxShape& box) const {
-    for (int axis = 0; axis < 3; ++axis) {
-      check_length("size of the box along axis " + std::to_string(axis), box.size[axis]);
-    }
+    check_length("size of the box along axis 0", box.size[0]);
+    check_length("size of the box along axis 1", box.size[1]);
+    check_length("size of the box along axis 2", box.size[2]);
   }
   void operator()(const SphereShape& sphere) const {
     check_length("radius of the sphere", sphere.radius);
@@ -160,15 +161,16 @@ void validate(const EnvironmentObject& object) {
   if (object.name.empty()) {
     throw std::invalid_argument("an object has no name");
   }
-  std::string part;  // of the object, which an error is about
+  std::optional<std::size_t> shape;  // of the object, which an error is about
   try {
     validate(object.pose);
     for (std::size_t i = 0; i < object.shapes.size(); ++i) {
-      part = ", shape " + std::to_string(i);
+      shape = i;
       validate(object.shapes[i].shape);
       validate(object.shapes[i].pose);
     }
   } catch (const std::invalid_argument& error) {
+    const std::string part = shape ? ", shape " + std::to_string(*shape) : "";
     throw std::invalid_argument("object " + quote(object.name) + part + ": " + error.what());
   }
 }

@@ -65,8 +65,8 @@ class ObjectPath;
 /// The objects around the fibres at one moment; never changes once it is made, so that any number
 /// of threads may ask at once while the next one is made.
 ///
-/// FCL's dynamic AABB tree finds which shapes are near a run of segments; how far a segment is from
-/// a shape is computed here, as FCL's answers cannot be relied on (docs/environment.md).
+/// A tree of boxes finds which shapes are near a run of segments; how far a segment is from a shape
+/// is computed here, as FCL's answers cannot be relied on (docs/environment.md).
 class Environment {
  public:
   /// @throws std::invalid_argument as validate(EnvironmentObject), or for two objects of one name
@@ -126,7 +126,7 @@ class Environment {
                         const MotionContact& contact) const;
 
  private:
-  class BroadPhase;
+  struct BroadPhase;
 
   void query_motion(const std::vector<ObjectPath>& paths, const FiberMotion& motion,
                     const MotionOptions& options, const AllowedPairs& allowed,
