@@ -20,6 +20,9 @@ void add_environment_command(CLI::App& app, Command& command) {
   add_count(*environment, "--cables", what.size.cables, "in the cell");
   add_count(*environment, "--points", what.size.points, "of each cable", 2);
   add_count(*environment, "--triangles", what.size.triangles, "of each of the eight links, about");
+  add_value(*environment, "--frames-per-sway", what.size.frames_per_sway,
+            "of the cables in the cell, which go up to 30 cm a sway; the arm's period is 4/3 of it",
+            finite_number(1.0));
   add_value(*environment, "--margin", what.questions.margin, "within which pairs are contacts [m]",
             finite_number(0.0));
   add_count(*environment, "--pixels", what.pixels, "of the depth camera");

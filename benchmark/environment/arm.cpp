@@ -9,8 +9,6 @@ using Eigen::Isometry3d;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double frames_per_period = 60.0;
-
 /// How a link is attached to the one before it: the joint is at the end of that, turns about an
 /// axis of its frame, and the link goes on along its own z axis.
 struct Joint {
@@ -29,9 +27,9 @@ constexpr std::array<Joint, arm_link_count> joints{{{false, 0.0, 0.0, 0.0},
                                                     {false, 0.0, 0.10, 0.00},
                                                     {true, 0.04, 0.02, 0.00}}};
 
-Matrix3d rotation(const Joint& joint, std::uint32_t frame) {
+Matrix3d rotation(const Joint& joint, double periods) {
   const double turn =
-      joint.rest + joint.swing * sine_of_turns(frame / frames_per_period + joint.phase);
+      joint.rest + joint.swing * sine_of_turns(periods + joint.phase);
   const double c = cosine_of_turns(turn);
   const double s = sine_of_turns(turn);
   Matrix3d matrix;
@@ -57,12 +55,12 @@ const std::array<ArmLink, arm_link_count>& arm_links() {
   return links;
 }
 
-std::array<Isometry3d, arm_link_count> arm_poses(std::uint32_t frame) {
+std::array<Isometry3d, arm_link_count> arm_poses(double periods) {
   std::array<Isometry3d, arm_link_count> poses;
   Isometry3d joint = Isometry3d::Identity();
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const double length = arm_links()[i].length;
-    joint.linear() = (joint.linear() * rotation(joints[i], frame)).eval();
+    joint.linear() = (joint.linear() * rotation(joints[i], periods)).eval();
     poses[i] = joint;
     poses[i].translation() += length / 2.0 * joint.linear().col(2);
     joint.translation() += length * joint.linear().col(2);

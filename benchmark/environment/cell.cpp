@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 
 constexpr double cable_radius = 0.004;  // [m]
 constexpr double cable_length = 1.5;    // [m] from end to end
-constexpr double frames_per_sway = 45.0;
+constexpr double sways_per_period = 4.0 / 3.0;  // of the arm
 
 Isometry3d at(double x, double y, double z) {
   Isometry3d pose = Isometry3d::Identity();
@@ -115,7 +115,7 @@ Wave wave_of(std::uint32_t cable, std::uint32_t cables) {
 }  // namespace
 
 Cell::Cell(const CellSize& size) : size_(size) {
-  const auto poses = arm_poses(0);
+  const auto poses = arm_poses(0.0);
   for (std::size_t i = 0; i < arm_link_count; ++i) {
     const ArmLink& link = arm_links()[i];
     objects_.push_back({link.name,
@@ -129,7 +129,7 @@ Cell::Cell(const CellSize& size) : size_(size) {
 
 std::vector<ObjectChange> Cell::moves(std::uint32_t frame) const {
   std::vector<ObjectChange> changes;
-  const auto poses = arm_poses(frame);
+  const auto poses = arm_poses(frame / (size_.frames_per_sway * sways_per_period));
   for (std::size_t i = 0; i < arm_link_count; ++i) {
     changes.push_back({ObjectChange::Operation::MOVE, {objects_[i].name, link_pose(poses[i]), {}}});
   }
@@ -142,7 +142,7 @@ std::vector<Vector3d> Cell::points(std::uint32_t frame) const {
     const Wave wave = wave_of(cable, size_.cables);
     for (std::uint32_t i = 0; i < size_.points; ++i) {
       points.push_back(
-          wave.at(static_cast<double>(i) / (size_.points - 1), frame / frames_per_sway));
+          wave.at(static_cast<double>(i) / (size_.points - 1), frame / size_.frames_per_sway));
     }
   }
   return points;

@@ -13,6 +13,7 @@ struct CellSize {
   std::uint32_t cables = 10;
   std::uint32_t points = 100;      ///< of each cable, at least 2
   std::uint32_t triangles = 5000;  ///< of each of the eight links, about
+  double frames_per_sway = 45.0;   ///< of the cables; the arm's period is 4/3 of that
 };
 
 /// A robot of eight links at a table, twenty solids on it and around it, and cables that lie there

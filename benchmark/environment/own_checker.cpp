@@ -16,7 +16,7 @@ class OwnChecker final : public CellChecker {
   OwnChecker(const std::vector<EnvironmentObject>& objects, const FiberAssembly& cables,
              const CellQuestions& questions)
       : cables_(cables),
-        engine_({questions.threads, 0.0}),
+        engine_({questions.threads, std::nullopt}),
         arena_(arena_concurrency(questions.threads)) {
     std::vector<ObjectChange> changes;
     for (const EnvironmentObject& object : objects) {

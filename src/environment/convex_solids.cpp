@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "fiber_proximity/environment/occupancy_octree.hpp"
+#include "src/geometry/norm.hpp"
 
 namespace fiber {
 namespace {
@@ -28,7 +29,7 @@ std::pair<double, Vector> box_distance(const Vector& point, const Vector& half) 
     return {beyond[axis], sign * Vector::Unit(axis)};
   }
   const Vector outside = beyond.cwiseMax(0.0);
-  const double distance = outside.stableNorm();
+  const double distance = norm_of(outside);
   Vector gradient = outside / distance;
   for (Eigen::Index i = 0; i < gradient.size(); ++i) {
     gradient[i] = std::copysign(gradient[i], point[i]);
@@ -116,7 +117,7 @@ PointDistance point_distance(const BoxShape& box, const Vector3d& point) {
 }
 
 PointDistance point_distance(const SphereShape& sphere, const Vector3d& point) {
-  const double length = point.stableNorm();
+  const double length = norm_of(point);
   return {length - sphere.radius, direction_of(point, length)};
 }
 
@@ -145,7 +146,7 @@ PointDistance point_distance(const ConeShape& cone, const Vector3d& point) {
   const Vector2d to_base = to_segment(profile.around, {0.0, -half}, rim);
   const bool near_slant = to_slant.squaredNorm() < to_base.squaredNorm();
   const Vector2d to_nearest = near_slant ? to_slant : to_base;
-  const double distance = to_nearest.stableNorm();
+  const double distance = norm_of(to_nearest);
   if (distance == 0.0) {
     return profile.revolved({0.0, near_slant ? slant : Vector2d(0.0, -1.0)});
   }

@@ -68,16 +68,22 @@ class EnvironmentQuery {
   double offer(const SegmentRun& run, const WorldShape& shape) {
     ++result_.counts.node_tests;
     const double bound = accumulator_.bound_of(run.fiber, shape.object);
-    if (run.box.exteriorDistance(shape.box) > std::max(bound + run.radius, 0.0)) {
-      accumulator_.leave_out(bound);
-      return reach_of(run);
-    }
-    ++result_.counts.node_overlaps;
+    const BoxReach reach(bound + run.radius);
+    const EightBoxes::Distances squared_distances = run.boxes.squared_distances(shape.box);
+    std::uint32_t near_count = 0;
     for (std::uint32_t point = run.begin; point < run.end; ++point) {
+      if (!reach.holds(squared_distances[point - run.begin])) {
+        continue;
+      }
+      ++near_count;
       if (accumulator_.done()) {
         return -std::numeric_limits<double>::infinity();
       }
       offer_segment(run, point, shape);
+    }
+    result_.counts.node_overlaps += near_count > 0 ? 1 : 0;
+    if (near_count < run.end - run.begin) {
+      accumulator_.leave_out(bound);
     }
     return reach_of(run);
   }
@@ -87,12 +93,10 @@ class EnvironmentQuery {
 
   static constexpr std::uint32_t segments_per_run = 8;
 
-  WorldBox box_of(std::uint32_t begin, std::uint32_t end) const {
-    WorldBox box;
-    for (std::uint32_t point = begin; point <= end; ++point) {
-      box.extend(fibers_.points()[point]);
-    }
-    return box;
+  WorldBox box_of(std::uint32_t point) const {
+    const Eigen::Vector3d& p0 = fibers_.points()[point];
+    const Eigen::Vector3d& p1 = fibers_.points()[point + 1];
+    return {p0.cwiseMin(p1), p0.cwiseMax(p1)};
   }
   double radius_of(std::uint32_t point) const { return fibers_.segment_radius(point); }
 
@@ -124,11 +128,6 @@ class EnvironmentQuery {
     const Capsule capsule = fibers_.capsule(point);
     const double bound = accumulator_.bound_of(run.fiber, shape.object);
     const double within = bound + capsule.radius;
-    const WorldBox box(capsule.p0.cwiseMin(capsule.p1), capsule.p0.cwiseMax(capsule.p1));
-    if (box.exteriorDistance(shape.box) > std::max(within, 0.0)) {
-      accumulator_.leave_out(bound);
-      return;
-    }
     if (!accumulator_.takes_pair()) {
       return;
     }

@@ -129,9 +129,7 @@ class EnvironmentMotion {
 
   static constexpr std::uint32_t segments_per_run = 4;  // they sweep more than those that stand
 
-  WorldBox box_of(std::uint32_t begin, std::uint32_t end) const {
-    return box_of_ways(motion_, begin, end);
-  }
+  WorldBox box_of(std::uint32_t point) const { return box_of_ways(motion_, point, point + 1); }
   double radius_of(std::uint32_t point) const { return larger_radius(motion_, point); }
 
   /// Considers the pairs of a run and a shape.
@@ -140,16 +138,17 @@ class EnvironmentMotion {
   double offer(const SegmentRun& run, const WorldShape& shape) {
     ++candidates_.counts.node_tests;
     const WorldBox& shape_box = moves(shape) ? moving_->box(shape) : shape.box;
-    if (run.box.exteriorDistance(shape_box) > within(run.radius)) {
-      return within(run.radius);
-    }
-    ++candidates_.counts.node_overlaps;
+    const BoxReach reach(within(run.radius));
+    const EightBoxes::Distances squared_distances = run.boxes.squared_distances(shape_box);
+    bool is_near = false;
     const auto index = static_cast<std::uint32_t>(&shape - shapes_.data());
     const std::uint32_t first = motion_.before.offsets()[run.fiber];
     for (std::uint32_t point = run.begin; point < run.end; ++point) {
-      const WorldBox box = box_of_ways(motion_, point, point + 1);
-      if (box.exteriorDistance(shape_box) > within(larger_radius(motion_, point)) ||
-          allowed_.holds(motion_.before, {run.fiber, point - first}, shape.object)) {
+      if (!reach.holds(squared_distances[point - run.begin])) {
+        continue;
+      }
+      is_near = true;
+      if (allowed_.holds(motion_.before, {run.fiber, point - first}, shape.object)) {
         continue;
       }
       if (candidates_.keys.size() >= limits_.pairs) {
@@ -158,6 +157,7 @@ class EnvironmentMotion {
       }
       candidates_.keys.push_back(pair_key({point, index}));
     }
+    candidates_.counts.node_overlaps += is_near ? 1 : 0;
     return within(run.radius);
   }
 

@@ -63,13 +63,9 @@ void ShapeBoxes::sort_along_curve() {
 }
 
 void ShapeBoxes::add_level(const std::vector<WorldBox>& boxes) {
-  Level level{boxes.size(), std::vector<Block>((boxes.size() + fan_out - 1) / fan_out)};
+  Level level{boxes.size(), std::vector<EightBoxes>((boxes.size() + fan_out - 1) / fan_out)};
   for (std::size_t i = 0; i < boxes.size(); ++i) {
-    Block& block = level.blocks[i / fan_out];
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      block.lower[axis][i % fan_out] = boxes[i].min()[static_cast<Eigen::Index>(axis)];
-      block.upper[axis][i % fan_out] = boxes[i].max()[static_cast<Eigen::Index>(axis)];
-    }
+    level.boxes[i / fan_out].set(i % fan_out, boxes[i]);
   }
   levels_.push_back(std::move(level));
 }

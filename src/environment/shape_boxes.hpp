@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "src/environment/eight_boxes.hpp"
 #include "src/environment/world_shape.hpp"
 
 namespace fiber {
@@ -43,53 +44,30 @@ class ShapeBoxes {
   }
 
  private:
-  static constexpr std::size_t fan_out = 8;
+  static constexpr std::size_t fan_out = EightBoxes::count;
 
-  /// The boxes that share one above them, by axis.
-  struct Block {
-    std::array<std::array<double, fan_out>, 3> lower;
-    std::array<std::array<double, fan_out>, 3> upper;
-  };
-
+  /// What is looked for, and how far it may be by now.
   class Search {
    public:
-    Search(const WorldBox& box, double within) : box_(box) { set_within(within); }
+    Search(const WorldBox& box, double within) : box(box), reach_(within) {}
 
     void set_within(double within) {
       is_over_ = within == -std::numeric_limits<double>::infinity();
-      const double distance = std::max(within, 0.0);
-      // More by the rounding of squares, and by that of those which are too small for it.
-      squared_ = distance * distance * (1.0 + 0x1p-40) + std::numeric_limits<double>::min();
+      reach_ = BoxReach(within);
     }
-
     bool is_over() const { return is_over_; }
-    bool holds(double squared_distance) const { return squared_distance <= squared_; }
+    bool holds(double squared_distance) const { return reach_.holds(squared_distance); }
 
-    /// [m²] Of the boxes of a block.
-    std::array<double, fan_out> squared_distances(const Block& block) const {
-      std::array<double, fan_out> squared{};
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        const double lower = box_.min()[static_cast<Eigen::Index>(axis)];
-        const double upper = box_.max()[static_cast<Eigen::Index>(axis)];
-        for (std::size_t i = 0; i < fan_out; ++i) {
-          const double below = block.lower[axis][i] - upper;
-          const double above = lower - block.upper[axis][i];
-          const double apart = std::max(std::max(below, above), 0.0);
-          squared[i] += apart * apart;
-        }
-      }
-      return squared;
-    }
+    const WorldBox& box;
 
    private:
-    const WorldBox& box_;
-    double squared_ = 0.0;  // [m²] of how far boxes may be
+    BoxReach reach_;
     bool is_over_ = false;
   };
 
   struct Level {
     std::size_t count = 0;
-    std::vector<Block> blocks;
+    std::vector<EightBoxes> boxes;  // by what is above them
   };
 
   /// Looks at the boxes of one level that share a box of the level above.
@@ -99,7 +77,7 @@ class ShapeBoxes {
     const Level& level = levels_[index];
     const std::size_t first = fan_out * parent;
     const std::size_t count = std::min(fan_out, level.count - first);
-    const std::array<double, fan_out> squared = search.squared_distances(level.blocks[parent]);
+    const EightBoxes::Distances squared = level.boxes[parent].squared_distances(search.box);
     std::array<std::uint8_t, fan_out> near;
     std::size_t near_count = 0;
     for (std::size_t i = 0; i < count; ++i) {

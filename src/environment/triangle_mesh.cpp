@@ -13,6 +13,7 @@
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "src/environment/mesh_topology.hpp"
 #include "src/environment/triangle_distance.hpp"
+#include "src/geometry/norm.hpp"
 
 namespace fiber {
 namespace {
@@ -153,7 +154,7 @@ class TriangleMesh::Surface {
     double least = infinity;
     search(box_around(point, point), infinity, [&](std::uint32_t triangle, double& most) {
       const PointTriangle found = nearest_on_triangle(point, corners(triangle));
-      const double distance = (point - found.nearest).stableNorm();
+      const double distance = norm_of(point - found.nearest);
       if (distance < least) {
         best = found;
         owner = triangle;

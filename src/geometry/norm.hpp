@@ -12,7 +12,8 @@ constexpr double min_safe_norm = 0x1p-500;
 constexpr double tiny_vector_scale = 0x1p600;
 
 /// Length of a vector of any magnitude that an assembly may have [m].
-inline double norm_of(const Eigen::Vector3d& v) {
+template <class Derived>
+double norm_of(const Eigen::MatrixBase<Derived>& v) {
   const double norm = v.norm();
   return norm > min_safe_norm ? norm : (v * tiny_vector_scale).norm() / tiny_vector_scale;
 }
