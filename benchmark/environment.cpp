@@ -13,7 +13,7 @@ void add_environment_command(CLI::App& app, Command& command) {
       {{"cell",
         measure_cell,
         {"checker", "objects_ms", "cables_ms", "self_ms", "contacts_ms", "nearest_ms", "sum_ms",
-         "times_own", "self_contacts", "contacts", "missed", "unwanted"}},
+         "times_own", "motion", "self_contacts", "contacts", "missed", "unwanted"}},
        {"octree", measure_octree, {"resolution", "build_ms", "cells"}},
        {"batch", measure_batch, {"threads", "per_candidate_ms", "touching"}},
        {"motions", measure_motions, {"threads", "per_candidate_ms", "touching"}}});
@@ -23,6 +23,8 @@ void add_environment_command(CLI::App& app, Command& command) {
   add_value(*environment, "--frames-per-sway", what.size.frames_per_sway,
             "of the cables in the cell, which go up to 30 cm a sway; the arm's period is 4/3 of it",
             finite_number(1.0));
+  environment->add_flag("!--without-fcl", what.beside_fcl,
+                        "the cell without FCL's turns, after which nothing is in the caches");
   add_value(*environment, "--margin", what.questions.margin, "within which pairs are contacts [m]",
             finite_number(0.0));
   add_count(*environment, "--pixels", what.pixels, "of the depth camera");

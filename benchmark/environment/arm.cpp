@@ -28,8 +28,7 @@ constexpr std::array<Joint, arm_link_count> joints{{{false, 0.0, 0.0, 0.0},
                                                     {true, 0.04, 0.02, 0.00}}};
 
 Matrix3d rotation(const Joint& joint, double periods) {
-  const double turn =
-      joint.rest + joint.swing * sine_of_turns(periods + joint.phase);
+  const double turn = joint.rest + joint.swing * sine_of_turns(periods + joint.phase);
   const double c = cosine_of_turns(turn);
   const double s = sine_of_turns(turn);
   Matrix3d matrix;

@@ -13,8 +13,8 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-constexpr double cable_radius = 0.004;  // [m]
-constexpr double cable_length = 1.5;    // [m] from end to end
+constexpr double cable_radius = 0.004;          // [m]
+constexpr double cable_length = 1.5;            // [m] from end to end
 constexpr double sways_per_period = 4.0 / 3.0;  // of the arm
 
 Isometry3d at(double x, double y, double z) {

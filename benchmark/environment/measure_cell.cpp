@@ -1,9 +1,11 @@
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <string>
 
 #include "benchmark/environment/cell_difference.hpp"
 #include "benchmark/environment/measurements.hpp"
+#include "benchmark/swaying.hpp"
 #include "src/accuracy/statistics.hpp"
 #include "src/tools/progress.hpp"
 
@@ -75,6 +77,15 @@ class CheckerRun {
   CellDifference difference_;
 };
 
+/// [m] Of the point that has moved farthest.
+double largest_motion(const FiberAssembly& before, const FiberAssembly& after) {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < after.point_count(); ++i) {
+    largest = std::max(largest, (after.points()[i] - before.points()[i]).norm());
+  }
+  return largest;
+}
+
 }  // namespace
 
 void measure_cell(const EnvironmentMeasurement& what, const ReportRow& report) {
@@ -82,11 +93,16 @@ void measure_cell(const EnvironmentMeasurement& what, const ReportRow& report) {
   FiberAssembly cables = cell.cables(0);
   std::vector<CheckerRun> runs;
   runs.emplace_back("own", make_own_checker(cell.objects(), cables, what.questions));
-  runs.emplace_back("fcl", make_fcl_checker(cell.objects(), cables, what.questions));
+  if (what.beside_fcl) {
+    runs.emplace_back("fcl", make_fcl_checker(cell.objects(), cables, what.questions));
+  }
+  std::vector<double> motions;
   Progress progress;
   for (std::uint32_t frame = 0; frame <= what.repeats; ++frame) {
     progress.show("frame " + std::to_string(frame) + " of " + std::to_string(what.repeats));
+    const FiberAssembly before = cables;
     cables.update_points(cell.points(frame));
+    motions.push_back(largest_motion(before, cables) / mean_segment_length(cables));
     const std::vector<ObjectChange> moves = cell.moves(frame);
     for (std::size_t turn = 0; turn < runs.size(); ++turn) {
       runs[(frame + turn) % runs.size()].run_frame(moves, cables);
@@ -101,6 +117,7 @@ void measure_cell(const EnvironmentMeasurement& what, const ReportRow& report) {
   for (const CheckerRun& run : runs) {
     BenchmarkRow row = run.row();
     row["times_own"] = run.median_ms() / runs.front().median_ms();
+    row["motion"] = median(motions);
     row["segments"] = cables.segment_count();
     row["objects"] = cell.objects().size();
     row["triangles"] = what.size.triangles;

@@ -11,6 +11,7 @@ namespace fiber {
 struct EnvironmentMeasurement {
   CellSize size;
   CellQuestions questions;
+  bool beside_fcl = true;            ///< in the cell
   std::uint32_t pixels = 300'000;    ///< of the depth camera
   std::uint32_t candidates = 1'000;  ///< cables to check
   std::uint32_t repeats = 61;        ///< frames of the cell, repeats of the others

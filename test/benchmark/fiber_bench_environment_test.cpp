@@ -38,6 +38,18 @@ TEST_F(FiberBench, ChecksACellBesideFcl) {
   }
 }
 
+TEST_F(FiberBench, ChecksACellAloneInFramesThatFollowEachOther) {
+  const ProcessResult result = bench(
+      "environment --parts cell --triangles 200 --repeats 3 --without-fcl --frames-per-sway 1320 "
+      "--json");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const std::vector<nlohmann::json> rows = json_lines(result.out);
+  ASSERT_EQ(rows.size(), 1U);
+  EXPECT_EQ(rows[0].at("checker"), "own");
+  EXPECT_GT(rows[0].at("contacts"), 0);
+  EXPECT_NEAR(rows[0].at("motion"), 0.02, 0.002) << "of a segment, of the fastest point";
+}
+
 TEST_F(FiberBench, MakesOctreesOfACameraAndChecksABatch) {
   const ProcessResult result = bench(
       "environment --parts batch,octree --pixels 3000 --candidates 40 --points 20 --triangles 200 "

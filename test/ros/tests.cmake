@@ -117,6 +117,7 @@ add_executable(node_test EXCLUDE_FROM_ALL
   ros/moving_test.cpp
   ros/no_clock_test.cpp
   ros/nodelet_test.cpp
+  ros/output_topic_test.cpp
   ros/prediction_test.cpp
   ros/query_test.cpp  # first of its suite: asks before there are fibres
   ros/query_options_test.cpp

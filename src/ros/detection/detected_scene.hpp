@@ -1,5 +1,7 @@
 #pragma once
 
+#include <tbb/task_arena.h>
+
 #include "fiber_proximity/query/options.hpp"
 #include "src/ros/detection/detector.hpp"
 #include "src/ros/detection/environment_detector.hpp"
@@ -16,6 +18,7 @@ struct DetectedScene {
   const EnvironmentDetector& environment;
   const FiberStep& step;  ///< of the fibres, from the answer before to the newest one
   const fiber::QueryOptions& query;
+  tbb::task_arena& threads;  ///< of all that is asked
 };
 
 }  // namespace fiber_proximity_ros

@@ -1,6 +1,7 @@
 #include "src/ros/outputs/contact_output.hpp"
 
 #include <algorithm>
+#include <boost/make_shared.hpp>
 #include <limits>
 #include <map>
 #include <optional>
@@ -211,7 +212,8 @@ void ContactOutput::publish_events(const BodyNames& names, const ContactAnswer& 
   }
   const std::vector<std::string>& names_b = type_b_ == Contact::OBJECT ? names.b : names.a;
   for (const fiber::TouchEvent& event : events_) {
-    fiber_proximity::ContactEvent message;
+    const auto event_message = boost::make_shared<fiber_proximity::ContactEvent>();
+    fiber_proximity::ContactEvent& message = *event_message;
     const fiber::TouchingPair& pair = event.touch.pair;
     message.header = answer.header;
     message.id = event.touch.id;
@@ -230,7 +232,7 @@ void ContactOutput::publish_events(const BodyNames& names, const ContactAnswer& 
       message.duration = duration_of(event);
     }
     message.deepest_gap = event.touch.deepest;
-    event_publisher_.publish(message);
+    event_publisher_.publish(event_message);
   }
 }
 

@@ -19,7 +19,7 @@ StatisticsOutput::StatisticsOutput(const ros::NodeHandle& private_node, const De
 
 void StatisticsOutput::publish(const Answer& answer, const Completeness& of_fibers,
                                const Completeness& of_all) {
-  const auto& [scene, detector, environment, step, query] = about_;
+  const auto& [scene, detector, environment, step, query, threads] = about_;
   fiber_proximity::Statistics& message = topic_.message();
   message.header = scene.fibers.header();
   message.engine = detector.engine_name();

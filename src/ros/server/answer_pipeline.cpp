@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "fiber_proximity/ros/conversions.hpp"
+#include "src/query/threads.hpp"
 
 namespace fiber_proximity_ros {
 
@@ -22,6 +23,7 @@ AnswerPipeline::AnswerPipeline(const ros::NodeHandle& node, const ros::NodeHandl
                                const std::function<void()>& before_answer)
     : settings_(settings),
       scene_(scene),
+      threads_(fiber::arena_concurrency(options.engine_options.threads)),
       detector_(options.engine, options.engine_options),
       motion_(options.engine, options.engine_options, options.fibers.timing.input_timeout),
       environment_(scene),
@@ -273,9 +275,11 @@ void AnswerPipeline::detect_in_environment() {
   const ContinuousStep step{fiber_step.motion(), fiber_step.time(), config.motion_tolerance,
                             fiber_step.uncertainties()};
   budget_.enter(Stage::ENVIRONMENT);
-  environment_.detect(query, config.minimum_distance,
-                      fiber_step.is_motion() || fiber_step.rests() ? &step : nullptr, is_tracked,
-                      budget_);
+  threads_.execute([&] {
+    environment_.detect(query, config.minimum_distance,
+                        fiber_step.is_motion() || fiber_step.rests() ? &step : nullptr, is_tracked,
+                        budget_);
+  });
   budget_.enter(Stage::ENVIRONMENT_OUTPUT);
   const Detection& found = environment_.detection();
   add_part("environment_update", environment_.update_time());
@@ -313,7 +317,8 @@ void AnswerPipeline::predict() {
     return;
   }
   const Stopwatch stopwatch;
-  predictor_.predict(settings_.query(), time_to_contact_.message(), budget_);
+  threads_.execute(
+      [&] { predictor_.predict(settings_.query(), time_to_contact_.message(), budget_); });
   time_to_contact_.publish();
   add_part("prediction", stopwatch.seconds(), !predictor_.is_cut_off());
 }

@@ -58,7 +58,7 @@ class AnswerPipeline {
   void tick();
 
   DetectedScene detected() {
-    return {scene_, detector_, environment_, motion_.step(), settings_.query()};
+    return {scene_, detector_, environment_, motion_.step(), settings_.query(), threads_};
   }
 
  private:
@@ -78,6 +78,7 @@ class AnswerPipeline {
 
   const Settings& settings_;
   ObservedScene& scene_;
+  tbb::task_arena threads_;  // of all that has no engine
   Detector detector_;
   MotionDetector motion_;
   EnvironmentDetector environment_;

@@ -173,9 +173,10 @@ bool respond(const DetectedScene& subject, const std::function<void()>& before_a
     const std::shared_ptr<const fiber::Environment> environment =
         subject.scene.environment.environment();
     const fiber::FiberAssembly& merged = fibers.fibers();
-    answer_it(QueryTarget{subject.scene, merged,
-                          asks_about_fibers ? &subject.detector.engine() : nullptr, *environment,
-                          subject.query, deadline});
+    const QueryTarget target{
+        subject.scene, merged,        asks_about_fibers ? &subject.detector.engine() : nullptr,
+        *environment,  subject.query, deadline};
+    subject.threads.execute([&] { answer_it(target); });
     response.header = fibers.header();
     if (!asks_about_fibers || !fibers.is_fresh()) {
       response.header.frame_id = fibers.frame().name();

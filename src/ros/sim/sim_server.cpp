@@ -107,7 +107,8 @@ SimServer::SimServer(const ros::NodeHandle& node, const ros::NodeHandle& private
       forces_(private_node) {
   frames_.wait_for(description, scene_, options.frame_wait);
   log_scene(options_, description, scene_);
-  fibers_ = node_.advertise<fiber_proximity::FiberArray>("fibers", 1, true);
+  fibers_ = OutputTopic<fiber_proximity::FiberArray>(
+      node_.advertise<fiber_proximity::FiberArray>("fibers", 1, true));
   if (options_.clock) {
     clock_ = node_.advertise<rosgraph_msgs::Clock>("/clock", 1);
   }
@@ -130,7 +131,7 @@ SceneCopy SimServer::copy_scene() {
   const std::lock_guard<FairMutex> lock(mutex_);
   require_running();
   constexpr std::uint32_t threads = 1;  // several are made at once
-  return {fiber::copy_sim_scene(*description_, scene_, threads), message_.header};
+  return {fiber::copy_sim_scene(*description_, scene_, threads), header_};
 }
 
 void SimServer::keep_pace() {
@@ -195,7 +196,7 @@ void SimServer::run_frame() {
   if (had_motions || scene_.motions() != nullptr) {
     publish_obstacles();
   }
-  forces_.publish(scene_, message_.header);
+  forces_.publish(scene_, header_);
   warn();
 }
 
@@ -213,16 +214,18 @@ void SimServer::warn() {
 
 void SimServer::publish() {
   const fiber::Rods& rods = scene_.stepper->rods();
-  to_message(fiber::assembly_of(rods), scene_.fiber_names, message_);
-  message_.header.frame_id = scene_.frame_id;
-  message_.header.stamp = ros::Time::now();
+  header_.frame_id = scene_.frame_id;
+  header_.stamp = ros::Time::now();
   if (options_.clock) {
     rosgraph_msgs::Clock clock;
     clock.clock = ros::Time(scene_.stepper->time());
-    message_.header.stamp = clock.clock;
+    header_.stamp = clock.clock;
     clock_.publish(clock);
   }
-  fibers_.publish(message_);
+  fiber_proximity::FiberArray& message = fibers_.message();
+  to_message(fiber::assembly_of(rods), scene_.fiber_names, message);
+  message.header = header_;
+  fibers_.publish();
 }
 
 /// Those that are no longer there are removed, in a message of its own: whoever comes later gets

@@ -19,6 +19,7 @@
 #include "fiber_proximity/sim/scene/scene.hpp"
 #include "src/ros/environment/mesh_loader.hpp"
 #include "src/ros/inputs/fixed_frame.hpp"
+#include "src/ros/outputs/output_topic.hpp"
 #include "src/ros/sim/fair_mutex.hpp"
 #include "src/ros/sim/predict_service.hpp"
 #include "src/ros/sim/sim_forces.hpp"
@@ -115,8 +116,8 @@ class SimServer {
   std::string interruption_;    // why ~step is to end; empty if it is not
   ros::SteadyTime next_frame_;  // when it is due
   double behind_ = 0.0;         // [s] given up so far because steps took too long
-  fiber_proximity::FiberArray message_;
-  ros::Publisher fibers_;
+  std_msgs::Header header_;     // of the fibres that were published last
+  OutputTopic<fiber_proximity::FiberArray> fibers_;
   ros::Publisher obstacles_;
   std::set<std::string> obstacle_names_;  // of those that were published last
   ros::Publisher clock_;
