@@ -171,18 +171,56 @@ void TouchTracker::share_gone_pairs(const std::vector<TouchingPair>& pairs) {
 void TouchTracker::find_claims(const std::vector<TouchingPair>& pairs) {
   claims_.clear();
   claimed_last_.assign(2 * touches_.size(), none);
+  const auto claim = [&](const Standing& before, bool is_next_to, std::size_t now) {
+    std::uint32_t& last = claimed_last_[2 * before.touch + (is_next_to ? 1 : 0)];
+    if (std::exchange(last, patches_[now]) != patches_[now]) {
+      claims_.push_back({before.touch, is_next_to, patches_[now]});
+    }
+  };
+  find_staying(pairs);
+  // Two that are next to each other and stay share a patch, which the first has claimed.
   TouchNeighbours<Standing> before(standing_, seams_);
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    before.for_each(pairs[i], standing_.size(), [&](std::size_t neighbour) {
-      const Standing& pair = standing_[neighbour];
-      const bool stays = pair.key() == pairs[i].key() && !pairs[i].is_gone;
-      std::uint32_t& last = claimed_last_[2 * pair.touch + (stays ? 0 : 1)];
-      if (std::exchange(last, patches_[i]) != patches_[i]) {
-        claims_.push_back({pair.touch, !stays, patches_[i]});
-      }
-    });
+    if (staying_[i] != none) {
+      claim(standing_[staying_[i]], false, i);
+    } else {
+      before.for_each(pairs[i], standing_.size(),
+                      [&](std::size_t neighbour) { claim(standing_[neighbour], true, i); });
+    }
+  }
+  TouchNeighbours<TouchingPair> now(pairs, seams_);
+  for (std::size_t i = 0; i < standing_.size(); ++i) {
+    if (!do_stay_[i]) {
+      now.for_each(standing_[i], pairs.size(), [&](std::size_t neighbour) {
+        if (staying_[neighbour] != none) {
+          claim(standing_[i], true, neighbour);
+        }
+      });
+    }
   }
   std::sort(claims_.begin(), claims_.end(), by_key);
+}
+
+/// Which pairs were there at the end of the step before, and are.
+void TouchTracker::find_staying(const std::vector<TouchingPair>& pairs) {
+  staying_.assign(pairs.size(), none);
+  do_stay_.assign(standing_.size(), false);
+  std::size_t before = 0;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    while (before < standing_.size() && standing_[before].key() < pairs[i].key()) {
+      ++before;
+    }
+    if (before < standing_.size() && !pairs[i].is_gone &&
+        standing_[before].key() == pairs[i].key()) {
+      staying_[i] = static_cast<std::uint32_t>(before);
+      do_stay_[before] = true;
+    }
+  }
+  for (std::size_t i = 1; i < standing_.size(); ++i) {  // those that are there more than once
+    if (standing_[i].key() == standing_[i - 1].key()) {
+      do_stay_[i] = do_stay_[i - 1];
+    }
+  }
 }
 
 /// Touches go on, the oldest first, in the first patch that is left for them.

@@ -161,8 +161,9 @@ class UncertainMotionTest : public ::testing::Test {
 
   /// @param now what is possible at the end
   ToldStep told(const QueryResult& now, const KnownMotion& motion) const {
-    return {options, motion.result, step_contacts(now.contacts, step().time, &motion),
-            motion.result.limit_reached};
+    ToldStep told{options, motion.result, {}, motion.result.limit_reached};
+    step_contacts(now.contacts, step().time, &motion, told.contacts);
+    return told;
   }
 
   /// True fibres before and after, the same way off at both.

@@ -264,14 +264,14 @@ KnownMotion detect_motion_contacts(const MovingEnvironment& environment,
   return {result, first_contact, last_contacts, step.time, reports_all, !uncertainty.is_none()};
 }
 
-std::vector<StepContact> step_contacts(const std::vector<fiber::Contact>& now,
-                                       const TimeBounds& step, const KnownMotion* motion) {
-  std::vector<StepContact> contacts;
+void step_contacts(const std::vector<fiber::Contact>& now, const TimeBounds& step,
+                   const KnownMotion* motion, std::vector<StepContact>& contacts) {
+  contacts.clear();
   for (const fiber::Contact& contact : now) {
     contacts.push_back({StepContact::State::THERE, contact, step, {}});
   }
   if (motion == nullptr) {
-    return contacts;
+    return;
   }
   const std::vector<MotionContact>& began = motion->result.contacts;
   const std::vector<MotionContact>& touching = motion->result.touching;
@@ -284,7 +284,6 @@ std::vector<StepContact> step_contacts(const std::vector<fiber::Contact>& now,
   }
   add_what_is_gone(now, began, StepContact::State::PASSED, *motion, contacts);
   add_what_is_gone(now, touching, StepContact::State::LEFT, *motion, contacts);
-  return contacts;
 }
 
 void PassedContacts::add(const std::vector<StepContact>& contacts) {

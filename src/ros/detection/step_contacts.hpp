@@ -84,12 +84,12 @@ struct StepContact {
   auto key() const { return contact.key(); }
 };
 
-/// All contacts of a step, in the order of Contact::key().
+/// Finds all contacts of a step, in the order of Contact::key().
 /// @param now  contacts after the step
 /// @param step from the answer before to this one, within which a contact came
 /// @param motion of the step, if it is known: it tells when, and what was gone again by now
-std::vector<StepContact> step_contacts(const std::vector<fiber::Contact>& now,
-                                       const fiber::TimeBounds& step, const KnownMotion* motion);
+void step_contacts(const std::vector<fiber::Contact>& now, const fiber::TimeBounds& step,
+                   const KnownMotion* motion, std::vector<StepContact>& contacts);
 
 /// Contacts that came and went, kept for a moment so that somebody can see them.
 class PassedContacts {

@@ -101,7 +101,7 @@ void ContactOutput::track(const ContactAnswer& answer) {
   const nanoseconds now = to_time(answer.header.stamp);
   // From the answer before, or this one if there is none, or time went back.
   const fiber::TimeBounds step{has_answer_ ? std::min(last_answer_, now) : nanoseconds(0), now};
-  contacts_ = step_contacts(answer.detection.contacts().contacts, step, answer.motion);
+  step_contacts(answer.detection.contacts().contacts, step, answer.motion, contacts_);
   events_.clear();
   rename(answer.names, step);
   publish_events(names_, answer);

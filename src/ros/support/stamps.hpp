@@ -9,7 +9,8 @@ namespace fiber_proximity_ros {
 /// A stamp as time since the epoch.
 std::chrono::nanoseconds to_time(const ros::Time& stamp);
 
-/// The stamp of a time since the epoch; times before it become the epoch itself.
+/// The stamp of a time since the epoch; times before it become the epoch itself, those after the
+/// last that a stamp may have that one.
 ros::Time to_stamp(std::chrono::nanoseconds time);
 
 /// Whether a stamp is one that a message may have now. The past is unlimited, as a recording has
