@@ -2,7 +2,8 @@
 # Builds what a check of the GPU engine needs, packs it with all that it loads, and runs it where a GPU is: tests of
 # engines, the same answers as on the processor byte by byte, compute-sanitizer, times. Writes one report.
 #   scripts/check_gpu.sh [--pack FOLDER | --run FOLDER] [--only tests|times|candidates] [--out DIR] [--verbose]
-#     --pack FOLDER  build and pack only: the folder then runs on any 64-bit Linux with a GPU, with nothing installed
+#     --pack FOLDER  build and pack only: the folder then runs on any 64-bit Linux with a GPU, where nothing is installed
+#                    but the driver and, for the tests, compute-sanitizer, which NVIDIA's cuda-sanitizer packages bring
 #     --run FOLDER   run what lies packed there
 #     --only WHAT    of the two halves: tests, or times on the eight scenes of the paper and of batches of candidates;
 #                    or candidates: tests and times of these alone
@@ -36,7 +37,7 @@ case "$only" in
 esac
 
 programs=(cuda_tree_test query_test hard_scenes_test accuracy_test contact_limit_test concurrent_queries_test
-  fiber_graph_test fiber_bench)
+  fiber_graph_test motion_test self_contact_test fiber_bench)
 [ "$only" != candidates ] || programs=(cuda_tree_test fiber_bench)
 
 # Cables beside each other, 330 segments a copy, and fibres anywhere, 1000000: from how many on a GPU pays.
@@ -89,14 +90,15 @@ here() {
 # step NAME COMMAND...: its last lines go into the report.
 failed=0
 step() {
-  local name=$1 start status=passed
+  local name=$1 start seconds status=passed
   shift
   start=$(date +%s)
   "$@" >"$out/$name.log" 2>&1 || status="FAILED ($?)"
   ! grep -q 'Running 0 tests' "$out/$name.log" || status="FAILED: no test of this name"
   [ "$status" = passed ] || failed=1
-  echo "check_gpu.sh: $name: $status, $(($(date +%s) - start)) s"
-  { echo "## $name: $status"; echo '```'; tail -n "${tail_lines:-6}" "$out/$name.log"; echo '```'; } >>"$out/report.md"
+  seconds=$(($(date +%s) - start))
+  echo "check_gpu.sh: $name: $status, $seconds s"
+  { echo "## $name: $status, $seconds s"; echo '```'; tail -n "${tail_lines:-6}" "$out/$name.log"; echo '```'; } >>"$out/report.md"
 }
 
 run_tests_there() {
@@ -107,8 +109,10 @@ run_tests_there() {
   step accuracy here accuracy_test --gtest_filter='*/cuda_tree'
   step concurrent here concurrent_queries_test --gtest_filter='*/cuda_tree'
   step joined here fiber_graph_test --gtest_filter='*/cuda_tree'
+  step motions here motion_test --gtest_filter='*/cuda_tree'
+  step loops here self_contact_test --gtest_filter='*/cuda_tree'
   step hard_scenes here hard_scenes_test --gtest_filter='*/cuda_tree*'
-  sanitize_there '*TakesAnyNumber*:*AskedAgain*:DeviceProximity.Refuses*:ContactsToHost.Locked*:Candidates.AreRefused*'
+  sanitize_there '*TakesAnyNumber*:*AskedAgain*:DeviceProximity.Refuses*:ContactsToHost.Locked*:Candidates.AreRefused*:SharedDevice.*'
 }
 
 # sanitize_there TESTS
@@ -173,6 +177,7 @@ run_checks() {
   case "$only" in '' | times) measure_there ;; esac
   [ "$only" = tests ] || measure_candidates_there
   [ "$only" != candidates ] || sanitize_there 'Candidates.OfAnySize*:Candidates.AreRefused*'
+  echo "All of it: $SECONDS s" >>"$out/report.md"
   echo "check_gpu.sh: the report is $out/report.md"
   return $failed
 }
@@ -181,7 +186,7 @@ if [ -z "$run" ]; then
   # shellcheck source=scripts/environment.sh
   source "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
   ! $verbose_wanted || be_verbose
-  "$root/scripts/setup.sh"
+  "$root/scripts/setup.sh" --cuda
   build+=/gpu
   out=${out:-$build/report}
   cmake_arguments=(-DFIBER_PROXIMITY_BUILD_ROS=OFF -DFIBER_PROXIMITY_BUILD_MPI=OFF -DFIBER_PROXIMITY_PEERS=OFF

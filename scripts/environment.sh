@@ -9,6 +9,8 @@ build=${FIBER_PROXIMITY_BUILD:-$(dirname "$root")/build-$(basename "$root")}
 
 # ROS's Python modules belong to /usr/bin/python3; another python3 may stand first on PATH.
 export PATH=/usr/bin:$PATH
+# Where NVIDIA's packages put CUDA's compiler, which CMake looks for on PATH.
+command -v nvcc >/dev/null || [ ! -x /usr/local/cuda/bin/nvcc ] || PATH+=:/usr/local/cuda/bin
 if [ -f /opt/ros/noetic/setup.bash ]; then
   set +u
   # shellcheck disable=SC1091

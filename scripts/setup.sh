@@ -46,10 +46,18 @@ while [ $# -gt 0 ]; do
   shift
 done
 
-if $cuda && ! command -v nvcc >/dev/null && [ ! -x /usr/local/cuda/bin/nvcc ]; then
-  echo "setup.sh: CUDA's compiler nvcc is neither on PATH nor in /usr/local/cuda/bin: install NVIDIA's cuda-toolkit, 11.4" \
-    "or newer, or Debian's nvidia-cuda-toolkit (non-free)" >&2
-  exit 1
+if $cuda; then
+  get="install NVIDIA's cuda-toolkit, 11.4 or newer, or Debian's nvidia-cuda-toolkit (non-free)"
+  nvcc=$(command -v nvcc || ls /usr/local/cuda/bin/nvcc 2>/dev/null || true)
+  if [ -z "$nvcc" ]; then
+    echo "setup.sh: CUDA's compiler nvcc is neither on PATH nor in /usr/local/cuda/bin: $get" >&2
+    exit 1
+  fi
+  version=$("$nvcc" --version | sed -n 's/.*release \([0-9.]*\).*/\1/p')
+  if [ "$(printf '%s\n' 11.4 "$version" | sort -V | head -1)" != 11.4 ]; then
+    echo "setup.sh: CUDA's compiler $nvcc is of ${version:-an unknown version}: $get" >&2
+    exit 1
+  fi
 fi
 
 # Message definitions (ros-*) and Python modules come beside the headers: Debian only recommends them.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <utility>
 
 #include "src/cuda/contact_room.hpp"
 #include "src/cuda/device.hpp"
@@ -15,6 +17,9 @@ namespace fiber {
 template <class Executor>
 class ContactJudge {
  public:
+  using Room = ContactRoom<Executor::template Buffer>;
+  using HostRoom = ContactRoom<Executor::template HostBuffer>;
+
   /// @param pairs sorted, on the device
   DeviceContacts judge_on_device(Executor& executor, const TreePoints& points, double margin,
                                  const std::uint64_t* pairs, std::uint32_t count) {
@@ -22,7 +27,8 @@ class ContactJudge {
     for (std::uint32_t part = 0; part < part_count_; ++part) {
       start(executor, part);
     }
-    return {finish(executor), device_.arrays()};
+    const std::uint32_t found = finish(executor);
+    return {found, device_->arrays(), nullptr, device_};
   }
 
   /// The same in page-locked memory of the host, once wait() has returned.
@@ -39,7 +45,7 @@ class ContactJudge {
         start(executor, part + 1);
       }
       const std::uint32_t found = total(part);
-      if (found <= std::min(device_.capacity(), host_.capacity())) {
+      if (found <= std::min(device_->capacity(), host_.capacity())) {
         send(executor, sent, found);
         sent = found;
       }
@@ -51,13 +57,17 @@ class ContactJudge {
       sent = 0;
     }
     send(executor, sent, found);
-    return {found, host_.arrays()};
+    return {found, host_.arrays(), nullptr, nullptr};
   }
-  /// The contacts on the device.
-  ContactArrays on_device() { return device_.arrays(); }
+  /// The last contacts.
+  Room& on_device() { return *device_; }
+  HostRoom& on_host() { return host_; }
   void wait(Executor& executor) { executor.wait_for_sent(); }
 
-  std::size_t memory_bytes() const { return judged_.bytes() + places_.bytes() + device_.bytes(); }
+  std::size_t memory_bytes() const {
+    return judged_.bytes() + places_.bytes() + device_->bytes() +
+           (before_ != nullptr ? before_->bytes() : 0);
+  }
 
  private:
   // Each costs the device a few launches; the first is waited for.
@@ -65,6 +75,7 @@ class ContactJudge {
 
   void begin(const TreePoints& points, double margin, const std::uint64_t* pairs,
              std::uint32_t count, std::uint32_t part_size) {
+    leave_what_is_held();
     judge_ = {points, margin, pairs, nullptr, nullptr, 0};
     count_ = count;
     part_size_ = part_size;
@@ -74,6 +85,16 @@ class ContactJudge {
     totals_.resize(most_parts);
     judge_.judged = judged_.data();
     judge_.are_contacts = places_.data();
+  }
+
+  /// Contacts that somebody holds stay as they are: others go elsewhere.
+  void leave_what_is_held() {
+    if (device_.use_count() > 1) {
+      std::swap(device_, before_);
+      if (device_ == nullptr || device_.use_count() > 1) {
+        device_ = std::make_shared<Room>();
+      }
+    }
   }
 
   std::uint32_t part_begin(std::uint32_t part) const { return part * part_size_; }
@@ -96,7 +117,7 @@ class ContactJudge {
   void write(Executor& executor, std::uint32_t begin, std::uint32_t end, std::uint32_t* total) {
     executor.for_each(end - begin,
                       WriteContacts{judge_.pairs, judged_.data(), places_.data(), begin, end,
-                                    device_.arrays(), device_.capacity(), total});
+                                    device_->arrays(), device_->capacity(), total});
   }
 
   /// How many contacts come up to and with this part, once they are written.
@@ -108,10 +129,10 @@ class ContactJudge {
   /// @return how many contacts there are, which are all on the device when it returns
   std::uint32_t finish(Executor& executor) {
     const std::uint32_t found = part_count_ == 0 ? 0 : total(part_count_ - 1);
-    if (found > device_.capacity()) {
+    if (found > device_->capacity()) {
       // Parts that there was room for may be on their way still.
       executor.wait_for_sent();
-      device_.resize(found);
+      device_->resize(found);
       write(executor, 0, count_, totals_.data());
       marks_[0].set(executor);
       marks_[0].wait();
@@ -124,11 +145,11 @@ class ContactJudge {
     if (count == 0) {
       return;
     }
-    executor.send(device_.a, begin, count, host_.a);
-    executor.send(device_.b, begin, count, host_.b);
-    executor.send(device_.s, begin, count, host_.s);
-    executor.send(device_.t, begin, count, host_.t);
-    executor.send(device_.distance, begin, count, host_.distance);
+    executor.send(device_->a, begin, count, host_.a);
+    executor.send(device_->b, begin, count, host_.b);
+    executor.send(device_->s, begin, count, host_.s);
+    executor.send(device_->t, begin, count, host_.t);
+    executor.send(device_->distance, begin, count, host_.distance);
   }
 
   JudgePairs judge_{};
@@ -137,8 +158,9 @@ class ContactJudge {
   std::uint32_t part_count_ = 0;
   typename Executor::template Buffer<JudgedPair> judged_;
   typename Executor::template Buffer<std::uint32_t> places_;
-  ContactRoom<Executor::template Buffer> device_;
-  ContactRoom<Executor::template HostBuffer> host_;
+  std::shared_ptr<Room> device_ = std::make_shared<Room>();
+  std::shared_ptr<Room> before_;  // of the contacts before, if they were held then
+  HostRoom host_;
   typename Executor::template HostBuffer<std::uint32_t> totals_;
   typename Executor::Mark marks_[most_parts];
 };

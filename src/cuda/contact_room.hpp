@@ -7,7 +7,7 @@
 
 namespace fiber {
 
-/// Memory of contacts, 32 bytes each.
+/// Memory of contacts, 32 bytes each, and of where those of candidates begin.
 template <template <class> class Buffer>
 struct ContactRoom {
   Buffer<std::uint32_t> a;
@@ -15,6 +15,7 @@ struct ContactRoom {
   Buffer<double> s;
   Buffer<double> t;
   Buffer<double> distance;
+  Buffer<std::uint32_t> candidate_begins;  // by candidate, and one more
 
   void resize(std::size_t count) {
     a.resize(count);
@@ -28,7 +29,8 @@ struct ContactRoom {
     return std::min({a.capacity(), b.capacity(), s.capacity(), t.capacity(), distance.capacity()});
   }
   std::size_t bytes() const {
-    return a.bytes() + b.bytes() + s.bytes() + t.bytes() + distance.bytes();
+    return a.bytes() + b.bytes() + s.bytes() + t.bytes() + distance.bytes() +
+           candidate_begins.bytes();
   }
   ContactArrays arrays() { return {a.data(), b.data(), s.data(), t.data(), distance.data()}; }
 };

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cub/device/device_radix_sort.cuh>
 #include <cub/device/device_scan.cuh>
+#include <cub/version.cuh>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -63,6 +65,11 @@ class CudaExecutor {
   using HostBuffer = DeviceBuffer<T, PinnedMemory>;
 
   static constexpr std::uint32_t least_judged_at_once = std::uint32_t{1} << 17U;
+
+  /// CUB counts in int before CUDA 13, and would count what is more as something else.
+  static constexpr std::uint64_t most_values = CUB_VERSION >= 300000
+                                                   ? std::numeric_limits<std::uint32_t>::max()
+                                                   : std::numeric_limits<std::int32_t>::max();
 
   /// Time of the GPU.
   class Clock {
@@ -176,6 +183,10 @@ class CudaExecutor {
   }
 
   std::optional<int> gpu() const { return own_; }
+
+  std::size_t memory_bytes() const {
+    return memory_.bytes() + other_keys_.bytes() + other_values_.bytes() + other_pairs_.bytes();
+  }
 
   void require_own(const void* pointer) {
     cudaPointerAttributes attributes;

@@ -29,6 +29,7 @@ struct DeviceContacts {
   std::uint32_t count = 0;
   ContactArrays arrays = {};
   const std::uint32_t* candidate_begins = nullptr;  ///< none where there are no candidates
+  std::shared_ptr<const void> memory;  ///< of the device: contacts stay as long as it is held
 };
 
 /// A tree over the segments of fibres, on a device.
@@ -84,10 +85,9 @@ class Device {
                              std::uint32_t leaf_count, const DeviceTree& b, const PairRule& rule,
                              std::uint64_t most, std::vector<std::uint64_t>& keys) = 0;
 
-  /// Finds the contacts of a tree's segments with each other, and leaves them on the device, until
-  /// it is called again.
+  /// Finds the contacts of a tree's segments with each other, and leaves them on the device.
   /// @param margin [m] finite
-  /// @throws std::runtime_error for more than 2³² candidates
+  /// @throws std::runtime_error for more pairs than can be sorted
   virtual DeviceContacts contacts(const DeviceTree& tree, const PairRule& rule, double margin) = 0;
 
   /// The same in page-locked memory of the host, until it is called again.

@@ -52,8 +52,11 @@ class DeviceOf final : public Device {
     // They are there when it returns: others may read them.
     DeviceContacts contacts =
         judge_.judge_on_device(*executor_, tree.points(), margin, pairs_.data(), count);
-    find_candidates(tree, contacts.count);
-    contacts.candidate_begins = tree.candidates().exist() ? begins_.data() : nullptr;
+    if (find_candidates(tree, contacts.count)) {
+      contacts.candidate_begins = judge_.on_device().candidate_begins.data();
+      found_.set(*executor_);
+      found_.wait();
+    }
     clock_.stop(*executor_);
     return contacts;
   }
@@ -65,12 +68,14 @@ class DeviceOf final : public Device {
     const std::uint32_t count = search_for_contacts(tree, rule);
     DeviceContacts contacts =
         judge_.judge_to_host(*executor_, tree.points(), margin, pairs_.data(), count);
-    find_candidates(tree, contacts.count);
+    const bool has_candidates = find_candidates(tree, contacts.count);
     clock_.stop(*executor_);
-    if (tree.candidates().exist()) {
-      host_begins_.resize(begins_.size());
-      executor_->download(begins_, 0, begins_.size(), host_begins_.data());
-      contacts.candidate_begins = host_begins_.data();
+    if (has_candidates) {
+      const auto& begins = judge_.on_device().candidate_begins;
+      auto& on_host = judge_.on_host().candidate_begins;
+      on_host.resize(begins.size());
+      executor_->download(begins, 0, begins.size(), on_host.data());
+      contacts.candidate_begins = on_host.data();
     }
     judge_.wait(*executor_);
     return contacts;
@@ -138,8 +143,8 @@ class DeviceOf final : public Device {
   std::optional<int> gpu() const override { return executor_->gpu(); }
 
   std::size_t memory_bytes() const override {
-    return pairs_.bytes() + count_.bytes() + begins_.bytes() + touching_.bytes() +
-           judge_.memory_bytes();
+    return pairs_.bytes() + count_.bytes() + touching_.bytes() + judge_.memory_bytes() +
+           executor_->memory_bytes();
   }
   double seconds() const override { return clock_.seconds(); }
 
@@ -147,7 +152,7 @@ class DeviceOf final : public Device {
   using Turn = typename Executor::Turn;
 
   static constexpr std::uint64_t first_room = 1024;
-  static constexpr std::uint64_t most_pairs = std::numeric_limits<std::uint32_t>::max();
+  static constexpr std::uint64_t most_pairs = Executor::most_values;
 
   /// The pairs, sorted, in pairs_; none if there are more than `most`.
   std::uint64_t search(const DeviceTree& a, std::uint32_t first_leaf, std::uint32_t leaf_count,
@@ -203,7 +208,8 @@ class DeviceOf final : public Device {
   static void require_pairs(std::uint64_t found) {
     if (found > most_pairs) {
       throw std::runtime_error("cuda_tree: " + std::to_string(found) +
-                               " pairs are near, more than the 2^32 that contacts may be of");
+                               " pairs are near, contacts may be of at most " +
+                               std::to_string(most_pairs));
     }
   }
 
@@ -216,14 +222,18 @@ class DeviceOf final : public Device {
   }
 
   /// Which of the contacts that have been found are of which candidate.
-  void find_candidates(const DeviceTree& tree, std::uint32_t contact_count) {
+  /// @return whether there are candidates
+  bool find_candidates(const DeviceTree& tree, std::uint32_t contact_count) {
     const CandidateView& candidates = tree.candidates();
     if (!candidates.exist()) {
-      return;
+      return false;
     }
-    begins_.resize(candidates.count + 1);
-    executor_->for_each(candidates.count + 1, FindCandidates{candidates, judge_.on_device().a,
-                                                             contact_count, begins_.data()});
+    auto& contacts = judge_.on_device();
+    contacts.candidate_begins.resize(candidates.count + 1);
+    executor_->for_each(candidates.count + 1,
+                        FindCandidates{candidates, contacts.a.data(), contact_count,
+                                       contacts.candidate_begins.data()});
+    return true;
   }
 
   /// How many bits the numbers of points of both have.
@@ -239,9 +249,8 @@ class DeviceOf final : public Device {
   typename Executor::template Buffer<std::uint64_t> pairs_;
   typename Executor::template Buffer<std::uint64_t> count_;
   typename Executor::template Buffer<std::uint32_t> touching_;
-  typename Executor::template Buffer<std::uint32_t> begins_;
-  typename Executor::template HostBuffer<std::uint32_t> host_begins_;
   ContactJudge<Executor> judge_;
+  typename Executor::Mark found_;
   typename Executor::Clock clock_;
 };
 

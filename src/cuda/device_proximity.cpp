@@ -132,8 +132,9 @@ DeviceProximity::Contacts DeviceProximity::query(const Options& options) const {
   const DeviceContacts found =
       device_->contacts(*tree_->tree, rule_of_contacts(options), options.margin);
   const ContactArrays& arrays = found.arrays;
-  return {found.count,           arrays.a, arrays.b, arrays.s, arrays.t, arrays.distance,
-          found.candidate_begins};
+  return {
+      found.count, arrays.a, arrays.b, arrays.s, arrays.t, arrays.distance, found.candidate_begins,
+      found.memory};
 }
 
 DeviceProximity::HostArrays DeviceProximity::query_to_host(const Options& options) const {

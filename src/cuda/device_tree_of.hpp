@@ -34,6 +34,7 @@ namespace fiber {
 /// - Mark: set(), and wait() until what came before is done
 /// - Clock: start(), stop(), and seconds() between the two of what the device has done
 /// - least_judged_at_once, pairs that are worth a part of their own where contacts go to the host
+/// - most_values that it sorts and adds up; memory_bytes() that this takes
 template <class Executor>
 class DeviceTreeOf final : public DeviceTree {
  public:

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <new>
 #include <numeric>
@@ -37,6 +38,7 @@ class HostExecutor {
 
   /// Few, so that small scenes have many parts.
   static constexpr std::uint32_t least_judged_at_once = 50;
+  static constexpr std::uint64_t most_values = std::numeric_limits<std::uint32_t>::max();
 
   /// There is no device whose time would count.
   struct Clock {
@@ -94,6 +96,7 @@ class HostExecutor {
   }
 
   std::optional<int> gpu() const { return std::nullopt; }
+  std::size_t memory_bytes() const { return 0; }
   void require_own(const void* /*pointer*/) {}
   void wait_for_others() {}
 

@@ -158,7 +158,12 @@ DevicePoints from_dlpack(const py::object& points, bool on_gpu, std::size_t poin
 std::optional<DevicePoints> DevicePoints::of(const py::object& points, bool on_gpu,
                                              std::size_t point_count) {
   if (py::hasattr(points, "__cuda_array_interface__")) {
-    return from_cuda_array(points, point_count);
+    const DevicePoints found = from_cuda_array(points, point_count);
+    if (!on_gpu) {
+      throw std::invalid_argument(
+          "points are in memory of an NVIDIA GPU, they must be in that of the host");
+    }
+    return found;
   }
   if (py::isinstance<py::array>(points) || !py::hasattr(points, "__dlpack__")) {
     return std::nullopt;

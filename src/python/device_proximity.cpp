@@ -47,7 +47,6 @@ class PythonDeviceProximity {
             DevicePoints::of(points, proximity_->gpu().has_value(), proximity_->point_count())) {
       const WithoutPythonLock others_may_run;
       const std::lock_guard<std::mutex> lock(mutex_);
-      ++generation_;
       if (on_device->is_single) {
         proximity_->update(reinterpret_cast<const float*>(on_device->address));
       } else {
@@ -58,15 +57,12 @@ class PythonDeviceProximity {
     const std::vector<Eigen::Vector3d> on_host = to_points(points, "points");
     const WithoutPythonLock others_may_run;
     const std::lock_guard<std::mutex> lock(mutex_);
-    ++generation_;
     proximity_->update_from_host(on_host);
   }
 
-  DeviceProximity::Contacts query(const DeviceProximity::Options& options,
-                                  std::uint64_t& generation) {
+  DeviceProximity::Contacts query(const DeviceProximity::Options& options) {
     const WithoutPythonLock others_may_run;
     const std::lock_guard<std::mutex> lock(mutex_);
-    generation = ++generation_;
     return proximity_->query(options);
   }
 
@@ -75,7 +71,6 @@ class PythonDeviceProximity {
     {
       const WithoutPythonLock others_may_run;
       const std::lock_guard<std::mutex> lock(mutex_);
-      ++generation_;
       proximity_->check_candidates(options, touching);
     }
     py::array_t<bool> answer(static_cast<Py_ssize_t>(touching.size()));
@@ -83,16 +78,11 @@ class PythonDeviceProximity {
     return answer;
   }
 
-  /// Calls while nobody asks for other contacts.
-  /// @throws std::runtime_error if somebody has, since this generation
-  template <class Call>
-  void with_current(std::uint64_t generation, const Call& call) {
+  void copy_to_host(const DeviceProximity::Contacts& contacts,
+                    DeviceProximity::HostContacts& copy) {
+    const WithoutPythonLock others_may_run;
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (generation != generation_) {
-      throw std::runtime_error(
-          "these contacts are gone: the points were updated, or others asked for");
-    }
-    call(*proximity_);
+    proximity_->copy_to_host(contacts, copy);
   }
 
   std::optional<int> gpu() const { return proximity_->gpu(); }
@@ -101,7 +91,6 @@ class PythonDeviceProximity {
  private:
   std::unique_ptr<DeviceProximity> proximity_;
   std::mutex mutex_;
-  std::uint64_t generation_ = 0;
 };
 
 /// @param neighbour_skip None for the rule of loops
@@ -114,30 +103,23 @@ DeviceProximity::Options to_device_options(double margin, const py::object& neig
   return options;
 }
 
-/// What one query has found.
+/// What one query has found: there as long as somebody holds it, or an array that was taken of it.
 class PythonDeviceContacts {
  public:
   PythonDeviceContacts(std::shared_ptr<PythonDeviceProximity> of,
                        const DeviceProximity::Options& options)
-      : of_(std::move(of)), contacts_(of_->query(options, generation_)) {}
+      : of_(std::move(of)), contacts_(of_->query(options)) {}
 
   std::uint32_t count() const { return contacts_.count; }
 
-  /// @throws std::runtime_error for contacts that are gone
   template <class Value>
   DeviceValues values(const Value* data) const {
-    of_->with_current(generation_, [](DeviceProximity&) {});
     return {data, contacts_.count, sizeof(Value), of_->gpu()};
   }
 
   py::dict to_host() const {
     DeviceProximity::HostContacts copy;
-    {
-      const WithoutPythonLock others_may_run;
-      of_->with_current(generation_, [&](const DeviceProximity& proximity) {
-        proximity.copy_to_host(contacts_, copy);
-      });
-    }
+    of_->copy_to_host(contacts_, copy);
     py::dict arrays;
     arrays["a"] = to_array(py::dtype("u4"), copy.a);
     arrays["b"] = to_array(py::dtype("u4"), copy.b);
@@ -154,7 +136,6 @@ class PythonDeviceContacts {
 
  private:
   std::shared_ptr<PythonDeviceProximity> of_;
-  std::uint64_t generation_ = 0;
   DeviceProximity::Contacts contacts_;
 };
 
@@ -209,7 +190,8 @@ void bind_device_proximity(py::module& module) {
   using Contacts = std::shared_ptr<PythonDeviceContacts>;
   py::class_<PythonDeviceContacts, Contacts>(
       module, "DeviceContacts",
-      "Contacts on a GPU, sorted by a, then b; there until the next query() or update().")
+      "Contacts on a GPU, sorted by a, then b; there as long as this or one of its arrays is held: "
+      "the next query() takes other memory.")
       .def_property_readonly(
           "a", [](const Contacts& all) { return array_of<&DeviceProximity::Contacts::a>(all); },
           "First points of the segments, uint32, the smaller one of each pair.")

@@ -9,7 +9,7 @@ import fiber_proximity as fp
 
 
 class OnDevice:
-    """Points as one who has them on a GPU offers them, by CUDA's array interface."""
+    """Points as one who has them on a GPU offers them, by CUDA's array interface: they are not read here."""
 
     def __init__(self, points, **changed):
         self.points = points
@@ -19,7 +19,7 @@ class OnDevice:
 
 
 class ByDLPack:
-    """The same by DLPack alone."""
+    """Points by DLPack, of the host unless it says otherwise."""
 
     def __init__(self, points, device=(1, 0)):
         self.points = points
@@ -45,12 +45,8 @@ class Device(unittest.TestCase):
         for kind in np.float32, np.float64:
             of_kind = np.ascontiguousarray(points, kind)
             proximity.update(ByDLPack(of_kind))
-            by_dlpack = proximity.query(margin=0.005, neighbour_skip=2).to_host()
-            proximity.update(OnDevice(of_kind))
             found = proximity.query(margin=0.005, neighbour_skip=2)
             arrays = found.to_host()
-            for name, values in arrays.items():
-                np.testing.assert_array_equal(by_dlpack[name], values)
             fibers = fp.Fibers(of_kind.astype(float), offsets, 0.01)
             expected = fp.Engine(fibers).contacts(margin=0.005, neighbour_skip=2)
             self.assertGreater(len(found), 100)
@@ -84,7 +80,7 @@ class Device(unittest.TestCase):
             fp.DeviceProximity(offsets, 0.001, device='host', candidates=[0, 500])
         points[31, 2] = np.nan
         with self.assertRaisesRegex(ValueError, 'candidate 0, its point 31: z is nan'):
-            proximity.update(OnDevice(points))
+            proximity.update(ByDLPack(points))
 
     def test_gives_its_arrays_by_dlpack(self):
         points, offsets = walks(6)
@@ -117,16 +113,24 @@ class Device(unittest.TestCase):
         self.assertEqual(own + len(proximity.query(pairing='different_fibers')), whole)
         self.assertGreater(own, 0)
 
-    def test_contacts_are_gone_with_the_next_ones(self):
+    def test_contacts_stay_as_long_as_they_are_held(self):
         points, offsets = walks(3)
         proximity = fp.DeviceProximity(offsets, 0.01, device='host')
         proximity.update(points)
         first = proximity.query()
-        proximity.query()
-        with self.assertRaisesRegex(RuntimeError, 'these contacts are gone'):
-            first.to_host()
-        with self.assertRaisesRegex(RuntimeError, 'these contacts are gone'):
-            first.a.__dlpack__()
+        arrays = first.to_host()
+        distance = np.from_dlpack(first.distance)
+        held = [proximity.query(margin=0.01 * i) for i in range(1, 6)]  # ever more contacts
+        proximity.update(points + 0.01 * np.random.default_rng(4).normal(size=points.shape))
+        proximity.query(margin=0.1)
+        self.assertGreater(len(held[-1]), 2 * len(first))
+        np.testing.assert_array_equal(distance, arrays['distance'])
+        for name, values in first.to_host().items():
+            np.testing.assert_array_equal(values, arrays[name])
+        del first  # but not what was taken of it
+        for margin in 0.0, 0.1, 0.0:
+            proximity.query(margin=margin)
+        np.testing.assert_array_equal(distance, arrays['distance'])
 
     def test_refuses_what_is_not_allowed(self):
         points, offsets = walks(4)
@@ -147,6 +151,8 @@ class Device(unittest.TestCase):
             proximity.update(ByDLPack(points.astype(np.int64)))
         with self.assertRaisesRegex(ValueError, 'C order'):
             proximity.update(ByDLPack(np.asfortranarray(points)))
+        with self.assertRaisesRegex(ValueError, 'in memory of an NVIDIA GPU, they must be in that of the host'):
+            proximity.update(OnDevice(points))
         with self.assertRaisesRegex(ValueError, r'type 10, they must be in that of the host'):
             proximity.update(ByDLPack(points, (10, 0)))
         with self.assertRaisesRegex(ValueError, r'type 2, they must be in that of the host'):
@@ -172,7 +178,7 @@ class Device(unittest.TestCase):
         bad = points.copy()
         bad[3, 1] = np.nan
         with self.assertRaisesRegex(ValueError, 'point [0-9]+: [xyz] is .*coordinates must be finite'):
-            proximity.update(OnDevice(bad))
+            proximity.update(ByDLPack(bad))
         proximity.update(points)
         with self.assertRaisesRegex(ValueError, 'margin is inf'):
             proximity.query(margin=np.inf)

@@ -20,6 +20,9 @@ struct PairRule;
 /// Fibres may be candidates, as check_fibers() has them, thousands in one assembly: places where a
 /// planner might put cables. A candidate meets itself, and fibres that stand still; the others it
 /// does not know, wherever they are.
+///
+/// Calls to one object, the const ones as well, must not overlap: they share its memory. Several
+/// objects may be used at once.
 class DeviceProximity {
  public:
   /// Which pairs are contacts.
@@ -31,8 +34,8 @@ class DeviceProximity {
     bool with_itself = true;         ///< candidates: contacts of each with itself count
   };
 
-  /// Arrays on the device of `count` values each, sorted by a, then b: to be read until the next
-  /// query().
+  /// Arrays on the device of `count` values each, sorted by a, then b. They stay as they are as
+  /// long as `memory` is held; a query() while it is held takes other memory.
   struct Contacts {
     std::uint32_t count = 0;
     const std::uint32_t* a = nullptr;  ///< first points of the segments, a < b
@@ -43,6 +46,7 @@ class DeviceProximity {
     /// Candidate count + 1 values: which contact is the first of each candidate, and how many there
     /// are; null without candidates.
     const std::uint32_t* candidate_begins = nullptr;
+    std::shared_ptr<const void> memory;
   };
 
   /// The same arrays in memory of the host, of the object that has found them: to be read until its
@@ -118,11 +122,11 @@ class DeviceProximity {
   Contacts query(const Options& options) const;
 
   /// Finds the contacts for the host: each part goes there while the device decides about the next,
-  /// into page-locked memory of this object, without a further copy. Contacts of query() are gone.
+  /// into page-locked memory of this object, without a further copy.
   /// @throws as query()
   HostArrays query_to_host(const Options& options) const;
 
-  /// Copies contacts of the last query() to the host, into the memory there is.
+  /// Copies contacts of a query() to the host, into the memory there is.
   void copy_to_host(const Contacts& contacts, HostContacts& copy) const;
 
   /// Which candidates have contacts, as check_fibers() says it: with themselves, or with what
