@@ -42,6 +42,31 @@ class TouchNeighbours {
     }
   }
 
+  /// Calls for the index of each neighbour of a pair that comes before it, for some more than once.
+  /// @param index not less than in the call before
+  template <class Use>
+  void for_each_earlier(std::size_t index, const Use& use) {
+    const Pair& pair = pairs_[index];
+    const std::uint64_t a = number_of(pair.fiber_a, pair.segment_a);
+    const std::uint64_t b = number_of(pair.fiber_b, pair.segment_b);
+    const std::uint64_t min_b = pair.segment_b == 0 ? b : b - 1;
+    for (std::size_t i = index; i > 0 && !is_before(pairs_[i - 1], a, min_b); --i) {
+      use(i - 1);
+    }
+    if (pair.segment_a > 0) {
+      std::size_t& begin = begins_[0];
+      while (is_before(pairs_[begin], a - 1, min_b)) {
+        ++begin;
+      }
+      for (std::size_t i = begin; is_before(pairs_[i], a - 1, b + 2); ++i) {
+        use(i);
+      }
+    }
+    if (!seams_.last_segments.empty()) {
+      for_each_across_seams(pair, index, use);
+    }
+  }
+
  private:
   /// A segment as one number, in the order of fibre and index.
   static std::uint64_t number_of(std::uint32_t fiber, std::uint32_t segment) {

@@ -28,14 +28,14 @@ template <class IsWanted>
 void join_neighbours(const std::vector<TouchingPair>& pairs, const TouchSeams& seams,
                      const IsWanted& is_wanted, std::vector<std::uint32_t>& firsts) {
   firsts.assign(pairs.size(), none);
-  TouchNeighbours<TouchingPair> earlier_pairs(pairs, seams);
+  TouchNeighbours<TouchingPair> neighbours(pairs, seams);
   for (std::uint32_t i = 0; i < pairs.size(); ++i) {
     if (!is_wanted(pairs[i])) {
       continue;
     }
     firsts[i] = i;
-    earlier_pairs.for_each(pairs[i], i, [&](std::size_t neighbour) {
-      if (firsts[neighbour] != none) {
+    neighbours.for_each_earlier(i, [&](std::size_t neighbour) {
+      if (firsts[neighbour] != none && firsts[neighbour] != firsts[i]) {
         const std::uint32_t x = first_of(firsts, static_cast<std::uint32_t>(neighbour));
         const std::uint32_t y = first_of(firsts, i);
         firsts[std::max(x, y)] = std::min(x, y);
@@ -177,50 +177,21 @@ void TouchTracker::find_claims(const std::vector<TouchingPair>& pairs) {
       claims_.push_back({before.touch, is_next_to, patches_[now]});
     }
   };
-  find_staying(pairs);
-  // Two that are next to each other and stay share a patch, which the first has claimed.
   TouchNeighbours<Standing> before(standing_, seams_);
+  std::size_t same = 0;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    if (staying_[i] != none) {
-      claim(standing_[staying_[i]], false, i);
+    while (same < standing_.size() && standing_[same].key() < pairs[i].key()) {
+      ++same;
+    }
+    // What was next to a pair that stays had its touch: the pair claims for all of these.
+    if (!pairs[i].is_gone && same < standing_.size() && standing_[same].key() == pairs[i].key()) {
+      claim(standing_[same], false, i);
     } else {
       before.for_each(pairs[i], standing_.size(),
                       [&](std::size_t neighbour) { claim(standing_[neighbour], true, i); });
     }
   }
-  TouchNeighbours<TouchingPair> now(pairs, seams_);
-  for (std::size_t i = 0; i < standing_.size(); ++i) {
-    if (!do_stay_[i]) {
-      now.for_each(standing_[i], pairs.size(), [&](std::size_t neighbour) {
-        if (staying_[neighbour] != none) {
-          claim(standing_[i], true, neighbour);
-        }
-      });
-    }
-  }
   std::sort(claims_.begin(), claims_.end(), by_key);
-}
-
-/// Which pairs were there at the end of the step before, and are.
-void TouchTracker::find_staying(const std::vector<TouchingPair>& pairs) {
-  staying_.assign(pairs.size(), none);
-  do_stay_.assign(standing_.size(), false);
-  std::size_t before = 0;
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    while (before < standing_.size() && standing_[before].key() < pairs[i].key()) {
-      ++before;
-    }
-    if (before < standing_.size() && !pairs[i].is_gone &&
-        standing_[before].key() == pairs[i].key()) {
-      staying_[i] = static_cast<std::uint32_t>(before);
-      do_stay_[before] = true;
-    }
-  }
-  for (std::size_t i = 1; i < standing_.size(); ++i) {  // those that are there more than once
-    if (standing_[i].key() == standing_[i - 1].key()) {
-      do_stay_[i] = do_stay_[i - 1];
-    }
-  }
 }
 
 /// Touches go on, the oldest first, in the first patch that is left for them.

@@ -160,8 +160,7 @@ class FIBER_PROXIMITY_EXPORT TouchTracker {
   std::vector<std::uint32_t>
       claimed_last_;  // by touch: the patches of its last claims of both kinds
   std::vector<std::uint32_t>
-      staying_;                // by pair: which of standing_ it is, none of those that came
-  std::vector<bool> do_stay_;  // by pair of standing_
+      staying_;  // by pair: which of standing_ it is, none of those that came
   std::vector<TouchStep> last_touches_;
 };
 
