@@ -120,7 +120,6 @@ class FIBER_PROXIMITY_EXPORT TouchTracker {
   bool find_parts(const std::vector<TouchingPair>& pairs);
   void share_gone_pairs(const std::vector<TouchingPair>& pairs);
   void find_claims(const std::vector<TouchingPair>& pairs);
-  void find_staying(const std::vector<TouchingPair>& pairs);
   void end_unclaimed(const TimeBounds& step, std::vector<TouchEvent>& events);
   void go_on();
   void begin_others(std::size_t pair_count);
@@ -159,8 +158,6 @@ class FIBER_PROXIMITY_EXPORT TouchTracker {
   std::vector<Claim> claims_;
   std::vector<std::uint32_t>
       claimed_last_;  // by touch: the patches of its last claims of both kinds
-  std::vector<std::uint32_t>
-      staying_;  // by pair: which of standing_ it is, none of those that came
   std::vector<TouchStep> last_touches_;
 };
 
