@@ -19,7 +19,7 @@ class EightBoxes {
     upper_.row(index) = box.max().transpose();
   }
 
-  /// [m²] By box; those that were not set have any.
+  /// [m²] By box; those that were not set are points at the origin.
   Distances squared_distances(const WorldBox& box) const {
     Distances squared = Distances::Zero();
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
@@ -31,8 +31,10 @@ class EightBoxes {
   }
 
  private:
-  Eigen::Array<double, count, 3> lower_;
-  Eigen::Array<double, count, 3> upper_;
+  using Corners = Eigen::Array<double, count, 3>;
+
+  Corners lower_ = Corners::Zero();
+  Corners upper_ = Corners::Zero();
 };
 
 /// How far boxes may be apart, as their squared distances tell. Those that overlap are always near.
