@@ -49,7 +49,7 @@ class ShapeBoxes {
   /// What is looked for, and how far it may be by now.
   class Search {
    public:
-    Search(const WorldBox& box, double within) : box(box), reach_(within) {}
+    Search(const WorldBox& around, double within) : box(around), reach_(within) {}
 
     void set_within(double within) {
       is_over_ = within == -std::numeric_limits<double>::infinity();
