@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "src/query/touch_neighbours.hpp"
+#include "src/query/touch_runs.hpp"
 
 namespace fiber {
 namespace {
@@ -13,40 +13,13 @@ namespace {
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 constexpr TimeBounds never{std::chrono::nanoseconds::max(), std::chrono::nanoseconds::max()};
 
-/// The first pair of a patch; makes the way there shorter.
-std::uint32_t first_of(std::vector<std::uint32_t>& patches, std::uint32_t pair) {
-  while (patches[pair] != pair) {
-    patches[pair] = patches[patches[pair]];
-    pair = patches[pair];
+/// The first run that one is joined with; makes the way there shorter.
+std::uint32_t first_of(std::vector<std::uint32_t>& joined, std::uint32_t run) {
+  while (joined[run] != run) {
+    joined[run] = joined[joined[run]];
+    run = joined[run];
   }
-  return pair;
-}
-
-/// Joins those of the pairs that are to be joined and are neighbours.
-/// @param firsts becomes the first pair that each is joined with, none of those that are not to be
-template <class IsWanted>
-void join_neighbours(const std::vector<TouchingPair>& pairs, const TouchSeams& seams,
-                     const IsWanted& is_wanted, std::vector<std::uint32_t>& firsts) {
-  firsts.assign(pairs.size(), none);
-  TouchNeighbours<TouchingPair> neighbours(pairs, seams);
-  for (std::uint32_t i = 0; i < pairs.size(); ++i) {
-    if (!is_wanted(pairs[i])) {
-      continue;
-    }
-    firsts[i] = i;
-    neighbours.for_each_earlier(i, [&](std::size_t neighbour) {
-      if (firsts[neighbour] != none && firsts[neighbour] != firsts[i]) {
-        const std::uint32_t x = first_of(firsts, static_cast<std::uint32_t>(neighbour));
-        const std::uint32_t y = first_of(firsts, i);
-        firsts[std::max(x, y)] = std::min(x, y);
-      }
-    });
-  }
-  for (std::uint32_t i = 0; i < pairs.size(); ++i) {
-    if (firsts[i] != none) {
-      firsts[i] = first_of(firsts, i);
-    }
-  }
+  return run;
 }
 
 TimeBounds earlier(const TimeBounds& x, const TimeBounds& y) {
@@ -96,13 +69,38 @@ void TouchTracker::advance(const std::vector<TouchingPair>& pairs, const TimeBou
   }
 }
 
+/// Joins runs that are neighbours.
+/// @param firsts by pair of the runs: becomes the first pair that it is joined with
+void TouchTracker::join(const std::vector<TouchRun>& runs, std::vector<std::uint32_t>& firsts) {
+  joined_.resize(runs.size());
+  NearTouchRuns near(runs, seams_);
+  for (std::uint32_t i = 0; i < runs.size(); ++i) {
+    joined_[i] = i;
+    near.for_each(runs[i], i, [&](std::size_t neighbour) {
+      const std::uint32_t x = first_of(joined_, static_cast<std::uint32_t>(neighbour));
+      const std::uint32_t y = first_of(joined_, i);
+      joined_[std::max(x, y)] = std::min(x, y);
+    });
+  }
+  for (std::uint32_t i = 0; i < runs.size(); ++i) {
+    std::fill(firsts.begin() + runs[i].begin, firsts.begin() + runs[i].end,
+              runs[first_of(joined_, i)].begin);
+  }
+}
+
 /// patches_ is the first pair of each pair's patch; of a patch that has parted, of its part.
 void TouchTracker::find_patches(const std::vector<TouchingPair>& pairs) {
-  join_neighbours(
-      pairs, seams_, [](const TouchingPair&) { return true; }, patches_);
+  const auto is_gone = [&pairs](std::size_t i) -> std::uint64_t {
+    return pairs[i].is_gone ? 1 : 0;
+  };
+  find_touch_runs(pairs, is_gone, runs_);
+  patches_.resize(pairs.size());
+  join(runs_, patches_);
   partings_.clear();
   if (find_parts(pairs)) {
     share_gone_pairs(pairs);
+    find_touch_runs(
+        pairs, [&](std::size_t i) { return 2 * std::uint64_t{patches_[i]} + is_gone(i); }, runs_);
   }
 }
 
@@ -113,8 +111,10 @@ bool TouchTracker::find_parts(const std::vector<TouchingPair>& pairs) {
   if (std::none_of(pairs.begin(), pairs.end(), is_gone)) {
     return false;
   }
-  join_neighbours(
-      pairs, seams_, [](const TouchingPair& pair) { return !pair.is_gone; }, parts_);
+  find_touch_runs(
+      pairs, [&pairs](std::size_t i) { return pairs[i].is_gone ? no_kind : 0; }, other_runs_);
+  parts_.assign(pairs.size(), none);
+  join(other_runs_, parts_);
   bool one_has_parted = false;
   partings_.assign(pairs.size(), {none, false, {std::chrono::nanoseconds::max(), {}}});
   for (std::size_t i = 0; i < pairs.size(); ++i) {
@@ -134,6 +134,9 @@ bool TouchTracker::find_parts(const std::vector<TouchingPair>& pairs) {
 /// Makes the parts of patches that have parted patches of their own. A pair that is gone goes with
 /// the part that the fewest pairs are between, of several the first.
 void TouchTracker::share_gone_pairs(const std::vector<TouchingPair>& pairs) {
+  // Each pair alone.
+  find_touch_runs(
+      pairs, [](std::size_t i) -> std::uint64_t { return i; }, other_runs_);
   std::vector<std::uint32_t> unshared;
   for (std::uint32_t i = 0; i < pairs.size(); ++i) {
     if (partings_[patches_[i]].has_parted && pairs[i].is_gone) {
@@ -142,11 +145,11 @@ void TouchTracker::share_gone_pairs(const std::vector<TouchingPair>& pairs) {
   }
   while (!unshared.empty()) {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> shared;
-    TouchNeighbours<TouchingPair> neighbours(pairs, seams_);
+    NearTouchRuns near(other_runs_, seams_);
     for (const std::uint32_t i : unshared) {
       std::uint32_t part = none;
-      neighbours.for_each(pairs[i], pairs.size(),
-                          [&](std::size_t neighbour) { part = std::min(part, parts_[neighbour]); });
+      near.for_each(other_runs_[i], pairs.size(),
+                    [&](std::size_t neighbour) { part = std::min(part, parts_[neighbour]); });
       if (part != none) {
         shared.emplace_back(i, part);
       }
@@ -171,25 +174,22 @@ void TouchTracker::share_gone_pairs(const std::vector<TouchingPair>& pairs) {
 void TouchTracker::find_claims(const std::vector<TouchingPair>& pairs) {
   claims_.clear();
   claimed_last_.assign(2 * touches_.size(), none);
-  const auto claim = [&](const Standing& before, bool is_next_to, std::size_t now) {
-    std::uint32_t& last = claimed_last_[2 * before.touch + (is_next_to ? 1 : 0)];
-    if (std::exchange(last, patches_[now]) != patches_[now]) {
-      claims_.push_back({before.touch, is_next_to, patches_[now]});
-    }
-  };
-  TouchNeighbours<Standing> before(standing_, seams_);
-  std::size_t same = 0;
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    while (same < standing_.size() && standing_[same].key() < pairs[i].key()) {
-      ++same;
-    }
-    // What was next to a pair that stays had its touch: the pair claims for all of these.
-    if (!pairs[i].is_gone && same < standing_.size() && standing_[same].key() == pairs[i].key()) {
-      claim(standing_[same], false, i);
-    } else {
-      before.for_each(pairs[i], standing_.size(),
-                      [&](std::size_t neighbour) { claim(standing_[neighbour], true, i); });
-    }
+  find_touch_runs(
+      standing_, [this](std::size_t i) -> std::uint64_t { return standing_[i].touch; },
+      other_runs_);
+  NearTouchRuns before(other_runs_, seams_);
+  for (const TouchRun& run : runs_) {
+    const std::uint32_t patch = patches_[run.begin];
+    before.for_each(run, other_runs_.size(), [&](std::size_t neighbour) {
+      const TouchRun& stood = other_runs_[neighbour];
+      const bool stays = !pairs[run.begin].is_gone && stood.a == run.a &&
+                         stood.first_b <= run.last_b && run.first_b <= stood.last_b;
+      const auto touch = static_cast<std::uint32_t>(stood.kind);
+      std::uint32_t& last = claimed_last_[2 * touch + (stays ? 0 : 1)];
+      if (std::exchange(last, patch) != patch) {
+        claims_.push_back({touch, !stays, patch});
+      }
+    });
   }
   std::sort(claims_.begin(), claims_.end(), by_key);
 }

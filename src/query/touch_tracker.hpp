@@ -45,6 +45,26 @@ struct TouchSeams {
   bool are_of_both = false;  ///< the second bodies are these fibres, too, not objects
 };
 
+/// Pairs that follow each other, of one segment a with consecutive segments b: they hang together.
+struct TouchRun {
+  std::uint64_t a;        ///< the segment, as one number in the order of fibre and index
+  std::uint64_t first_b;  ///< the first segment b, as such a number
+  std::uint64_t last_b;   ///< the last one
+  std::uint32_t begin;    ///< of its pairs
+  std::uint32_t end;      ///< after its last one
+  std::uint64_t kind;     ///< the same of all its pairs
+
+  static std::uint64_t number_of(std::uint32_t fiber, std::uint32_t segment) {
+    return std::uint64_t{fiber} << 32 | segment;
+  }
+  static std::uint32_t fiber_of(std::uint64_t number) {
+    return static_cast<std::uint32_t>(number >> 32);
+  }
+  static std::uint32_t segment_of(std::uint64_t number) {
+    return static_cast<std::uint32_t>(number);
+  }
+};
+
 /// That a touch began or ended.
 struct TouchEvent {
   enum class Kind { BEGAN, ENDED };
@@ -116,6 +136,7 @@ class FIBER_PROXIMITY_EXPORT TouchTracker {
     std::uint32_t touch;
   };
 
+  void join(const std::vector<TouchRun>& runs, std::vector<std::uint32_t>& firsts);
   void find_patches(const std::vector<TouchingPair>& pairs);
   bool find_parts(const std::vector<TouchingPair>& pairs);
   void share_gone_pairs(const std::vector<TouchingPair>& pairs);
@@ -144,8 +165,11 @@ class FIBER_PROXIMITY_EXPORT TouchTracker {
 
   // These are of the step being taken; members for their memory. A patch is known by its first
   // pair.
-  std::vector<std::uint32_t> patches_;  // by pair: an earlier pair of its patch, or itself
+  std::vector<std::uint32_t> patches_;  // by pair: the first pair of its patch
   std::vector<std::uint32_t> parts_;    // the same, of what is there at the end of the step
+  std::vector<TouchRun> runs_;          // each of one patch, there or gone at the end of the step
+  std::vector<TouchRun> other_runs_;
+  std::vector<std::uint32_t> joined_;  // by run: the first run that it is joined with
 
   /// The outcome of a patch.
   struct Parting {

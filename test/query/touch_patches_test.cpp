@@ -15,12 +15,27 @@ namespace {
 
 using std::chrono::nanoseconds;
 
+/// Whether two pairs hang together: their segments are the same or next to each other.
+bool are_neighbours(const TouchingPair& x, const TouchingPair& y, const TouchSeams& seams) {
+  const auto are_near = [&](std::uint32_t fiber, std::uint32_t i, std::uint32_t j,
+                            bool may_be_closed) {
+    const std::uint32_t apart = i < j ? j - i : i - j;
+    const bool is_closed = may_be_closed && fiber < seams.last_segments.size();
+    return apart <= 1 || (is_closed && apart > 0 && apart == seams.last_segments[fiber]);
+  };
+  const bool are_same_way = are_near(x.fiber_a, x.segment_a, y.segment_a, true) &&
+                            are_near(x.fiber_b, x.segment_b, y.segment_b, seams.are_of_both);
+  const bool are_other_way = seams.are_of_both && x.fiber_a == x.fiber_b &&
+                             are_near(x.fiber_a, x.segment_a, y.segment_b, true) &&
+                             are_near(x.fiber_a, x.segment_b, y.segment_a, true);
+  return x.fiber_a == y.fiber_a && x.fiber_b == y.fiber_b && (are_same_way || are_other_way);
+}
+
 /// The first pair of the patch of each pair that is wanted, by looking at all pairs until nothing
 /// changes any more.
 template <class IsWanted>
 std::vector<std::size_t> patches_of(const std::vector<TouchingPair>& pairs,
-                                    const IsWanted& is_wanted) {
-  const auto apart = [](std::uint32_t x, std::uint32_t y) { return x < y ? y - x : x - y; };
+                                    const IsWanted& is_wanted, const TouchSeams& seams = {}) {
   std::vector<std::size_t> patch(pairs.size());
   for (std::size_t i = 0; i < patch.size(); ++i) {
     patch[i] = i;
@@ -30,9 +45,7 @@ std::vector<std::size_t> patches_of(const std::vector<TouchingPair>& pairs,
     for (std::size_t i = 0; i < pairs.size(); ++i) {
       for (std::size_t j = 0; j < pairs.size(); ++j) {
         if (is_wanted(pairs[i]) && is_wanted(pairs[j]) && patch[j] < patch[i] &&
-            pairs[i].fiber_a == pairs[j].fiber_a && pairs[i].fiber_b == pairs[j].fiber_b &&
-            apart(pairs[i].segment_a, pairs[j].segment_a) <= 1 &&
-            apart(pairs[i].segment_b, pairs[j].segment_b) <= 1) {
+            are_neighbours(pairs[i], pairs[j], seams)) {
           patch[i] = patch[j];
           changes = true;
         }
@@ -217,6 +230,46 @@ TEST_F(TouchTrackerTest, TouchesAreWhatHangsTogetherAtTheEndOfAStep) {
   }
   expect_enough(parted, static_cast<std::size_t>(rounds(100)));
   expect_enough(stayed, static_cast<std::size_t>(rounds(5000)));
+}
+
+/// The same of closed fibres, two of which may touch themselves, and of objects.
+TEST_F(TouchTrackerTest, PatchesAcrossSeamsAreThoseOfAllPairs) {
+  Random random;
+  constexpr std::uint32_t last = 6;
+  std::size_t across = 0;  // pairs that a seam alone joins
+  for (int round = 0; round < rounds(3000); ++round) {
+    TouchSeams seams;
+    seams.are_of_both = random.uniform(0, 1) < 0.7;
+    for (int fiber = 0; fiber < 3; ++fiber) {
+      seams.last_segments.push_back(random.uniform(0, 1) < 0.7 ? last : 0);
+    }
+    tracker_.set_seams(seams);
+    std::set<std::array<std::uint32_t, 4>> drawn;
+    for (std::int64_t i = random.integer(0, 25); i > 0; --i) {
+      const auto fiber_a = static_cast<std::uint32_t>(random.integer(0, 1));
+      const auto fiber_b = static_cast<std::uint32_t>(random.integer(1, 2));
+      const auto a = static_cast<std::uint32_t>(random.integer(0, last));
+      const auto b = static_cast<std::uint32_t>(random.integer(0, last));
+      if (fiber_a < fiber_b || a < b) {
+        drawn.insert({fiber_a, a, fiber_b, b});
+      }
+    }
+    std::vector<TouchingPair> pairs;
+    for (const auto& [fiber_a, a, fiber_b, b] : drawn) {
+      pairs.push_back({fiber_a, a, fiber_b, b, -1e-3, false, step_, {}});
+    }
+    step_with(pairs);
+    const auto all = [](const TouchingPair&) { return true; };
+    const std::vector<std::size_t> patch = patches_of(pairs, all, seams);
+    const std::vector<std::size_t> open_patch = patches_of(pairs, all);
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        ASSERT_EQ(ids_[i] == ids_[j], patch[i] == patch[j]);
+        across += patch[i] == patch[j] && open_patch[i] != open_patch[j] ? 1 : 0;
+      }
+    }
+  }
+  expect_enough(across, static_cast<std::size_t>(rounds(1500)));
 }
 
 /// Fibre 0 is closed, of ten segments, fibre 1 of seven.
