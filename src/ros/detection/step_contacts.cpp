@@ -266,9 +266,15 @@ KnownMotion detect_motion_contacts(const MovingEnvironment& environment,
 
 void step_contacts(const std::vector<fiber::Contact>& now, const TimeBounds& step,
                    const KnownMotion* motion, std::vector<StepContact>& contacts) {
-  contacts.clear();
-  for (const fiber::Contact& contact : now) {
-    contacts.push_back({StepContact::State::THERE, contact, step, {}});
+  // Those of the answer before are written over: making them anew would take as long.
+  contacts.resize(now.size());
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    StepContact& there = contacts[i];
+    there.state = StepContact::State::THERE;
+    there.contact = now[i];
+    there.first = step;
+    there.last = TimeBounds();
+    there.was_certain = false;
   }
   if (motion == nullptr) {
     return;

@@ -35,14 +35,16 @@ fiber::TouchTracker::FiberIndices indices_among(const std::vector<std::string>& 
   return found;
 }
 
-fiber::TouchingPair pair_of(const StepContact& contact, bool is_of_object) {
-  const fiber::Contact& pair = contact.contact;
-  // The shapes of an object are one body.
-  return {{pair.fiber_a, pair.segment_a, pair.fiber_b, is_of_object ? 0 : pair.segment_b},
-          pair.distance,
-          contact.state != StepContact::State::THERE,
-          contact.first,
-          contact.last};
+void fill_pair(const StepContact& contact, bool is_of_object, fiber::TouchingPair& pair) {
+  const fiber::Contact& from = contact.contact;
+  pair.fiber_a = from.fiber_a;
+  pair.segment_a = from.segment_a;
+  pair.fiber_b = from.fiber_b;
+  pair.segment_b = is_of_object ? 0 : from.segment_b;  // the shapes of an object are one body
+  pair.distance = from.distance;
+  pair.is_gone = contact.state != StepContact::State::THERE;
+  pair.first = contact.first;
+  pair.last = contact.last;
 }
 
 /// [s] Of what was there before anybody looked, since then.
@@ -75,14 +77,32 @@ fiber::TouchSeams seams_of(const fiber::FiberAssembly& fibers, std::uint8_t type
   return seams;
 }
 
+/// The time that an answer covers. Most times of its contacts are its ends.
+struct AnswerTime {
+  AnswerTime(nanoseconds since_time, nanoseconds now_time)
+      : since(since_time),
+        now(now_time),
+        since_stamp(to_stamp(since_time)),
+        now_stamp(to_stamp(now_time)) {}
+
+  ros::Time stamp_of(nanoseconds time) const {
+    return time == now ? now_stamp : time == since ? since_stamp : to_stamp(time);
+  }
+
+  const nanoseconds since;
+  const nanoseconds now;
+  const ros::Time since_stamp;
+  const ros::Time now_stamp;
+};
+
 /// Adds what is known of it over time.
-void add_details(const StepContact& contact, const fiber::Touch& touch, nanoseconds since,
-                 nanoseconds now, Contact& message) {
+void add_details(const StepContact& contact, const fiber::Touch& touch, const AnswerTime& time,
+                 Contact& message) {
   message.id = touch.id;
   message.age =
-      std::chrono::duration<double>(std::max(now - touch.began.upper, nanoseconds(0))).count();
-  message.time_lower = to_stamp(std::max(contact.first.lower, since));
-  message.time_upper = to_stamp(contact.first.upper);
+      std::chrono::duration<double>(std::max(time.now - touch.began.upper, nanoseconds(0))).count();
+  message.time_lower = time.stamp_of(std::max(contact.first.lower, time.since));
+  message.time_upper = time.stamp_of(contact.first.upper);
   message.gone = contact.state != StepContact::State::THERE;
   message.certain = message.gone ? contact.was_certain : message.certain;
 }
@@ -106,9 +126,9 @@ void ContactOutput::track(const ContactAnswer& answer) {
   rename(answer.names, step);
   publish_events(names_, answer);
   names_ = answer.names;
-  pairs_.clear();
-  for (const StepContact& contact : contacts_) {
-    pairs_.push_back(pair_of(contact, type_b_ == Contact::OBJECT));
+  pairs_.resize(contacts_.size());
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    fill_pair(contacts_[i], type_b_ == Contact::OBJECT, pairs_[i]);
   }
   events_.clear();
   tracker_.set_seams(seams_of(answer.fibers, type_b_));
@@ -126,7 +146,7 @@ void ContactOutput::publish(const ContactAnswer& answer, bool has_gradients, dou
   const Completeness completeness = completeness_of(answer);
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const nanoseconds now = to_time(header.stamp);
-  const nanoseconds since = motion != nullptr ? motion->time.lower : now;
+  const AnswerTime time(motion != nullptr ? motion->time.lower : now, now);
   const auto fill_in = [&, type_b = type_b_, margin = options.margin](const fiber::Contact& contact,
                                                                       Contact& filled) {
     to_message(contact, Contact::FIBER, type_b, filled);
@@ -141,14 +161,14 @@ void ContactOutput::publish(const ContactAnswer& answer, bool has_gradients, dou
   message.fiber_names = names.a;
   message.object_names = names.b;
   message.continuous = motion != nullptr;
-  message.since = to_stamp(since);
+  message.since = time.since_stamp;
   message.contacts.resize(contacts_.size());
   std::size_t count = 0;
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     if (contacts_[i].state != StepContact::State::LEFT) {
       Contact& contact = message.contacts[count++];
       fill_in(contacts_[i].contact, contact);
-      add_details(contacts_[i], tracker_.touch_of(i), since, now, contact);
+      add_details(contacts_[i], tracker_.touch_of(i), time, contact);
     }
   }
   message.contacts.resize(count);

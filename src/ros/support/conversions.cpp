@@ -29,6 +29,14 @@ bool has_layout_of(const FiberBuffer& buffer, const fiber::FiberAssembly& fibers
          buffer.topology.joints == topology.joints && buffer.radii == fibers.given_radii();
 }
 
+/// @tparam Message of coordinates: a Point or Vector3
+template <class Message>
+void fill(const Eigen::Vector3d& from, Message& message) {
+  message.x = from.x();
+  message.y = from.y();
+  message.z = from.z();
+}
+
 }  // namespace
 
 void assign(FiberBuffer& buffer, fiber::FiberAssembly& fibers) {
@@ -42,17 +50,13 @@ void assign(FiberBuffer& buffer, fiber::FiberAssembly& fibers) {
 
 geometry_msgs::Point to_message(const Eigen::Vector3d& point) {
   geometry_msgs::Point message;
-  message.x = point.x();
-  message.y = point.y();
-  message.z = point.z();
+  fill(point, message);
   return message;
 }
 
 geometry_msgs::Vector3 to_vector_message(const Eigen::Vector3d& vector) {
   geometry_msgs::Vector3 message;
-  message.x = vector.x();
-  message.y = vector.y();
-  message.z = vector.z();
+  fill(vector, message);
   return message;
 }
 
@@ -103,9 +107,9 @@ void to_message(const fiber::Contact& contact, std::uint8_t body_a, std::uint8_t
   message.distance = contact.distance;
   message.lower = contact.lower;
   message.upper = contact.upper;
-  message.point_a = to_message(contact.point_a);
-  message.point_b = to_message(contact.point_b);
-  message.normal = to_vector_message(contact.normal);
+  fill(contact.point_a, message.point_a);
+  fill(contact.point_b, message.point_b);
+  fill(contact.normal, message.normal);
 }
 
 void add_gradients(fiber_proximity::Contact& message) {
