@@ -87,6 +87,10 @@ target_include_directories(fiber_proximity_ros SYSTEM PUBLIC
 target_link_libraries(fiber_proximity_ros
   PUBLIC fiber_proximity_sim fiber_proximity_compare fiber_proximity_paper fiber_proximity_cuda fiber_proximity_scenes ${catkin_LIBRARIES}
   PRIVATE fiber_proximity_accuracy fiber_proximity_options)
+# What does something for each contact is worth -O3, alone among sources that hand on what others compute.
+set_source_files_properties(
+  src/ros/detection/step_contacts.cpp src/ros/outputs/contact_output.cpp src/ros/support/conversions.cpp
+  PROPERTIES COMPILE_OPTIONS $<$<CONFIG:Release>:-O3> SKIP_UNITY_BUILD_INCLUSION ON)
 # ROS's headers take half of the time of such a source, also of a dozen together.
 fiber_proximity_compile_together(fiber_proximity_ros)
 fiber_proximity_precompile(fiber_proximity_ros ${ros_headers})

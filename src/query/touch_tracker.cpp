@@ -22,6 +22,27 @@ std::uint32_t first_of(std::vector<std::uint32_t>& joined, std::uint32_t run) {
   return run;
 }
 
+/// Joins runs that are neighbours.
+/// @param joined becomes by run an earlier one that it is joined with, or itself
+/// @param firsts by pair of the runs: becomes the first pair that it is joined with
+void join_runs(const std::vector<TouchRun>& runs, const TouchSeams& seams,
+               std::vector<std::uint32_t>& joined, std::vector<std::uint32_t>& firsts) {
+  joined.resize(runs.size());
+  NearTouchRuns near(runs, seams);
+  for (std::uint32_t i = 0; i < runs.size(); ++i) {
+    joined[i] = i;
+    near.for_each(runs[i], i, [&](std::size_t neighbour) {
+      const std::uint32_t x = first_of(joined, static_cast<std::uint32_t>(neighbour));
+      const std::uint32_t y = first_of(joined, i);
+      joined[std::max(x, y)] = std::min(x, y);
+    });
+  }
+  for (std::uint32_t i = 0; i < runs.size(); ++i) {
+    std::fill(firsts.begin() + runs[i].begin, firsts.begin() + runs[i].end,
+              runs[first_of(joined, i)].begin);
+  }
+}
+
 TimeBounds earlier(const TimeBounds& x, const TimeBounds& y) {
   return {std::min(x.lower, y.lower), std::min(x.upper, y.upper)};
 }
@@ -69,25 +90,6 @@ void TouchTracker::advance(const std::vector<TouchingPair>& pairs, const TimeBou
   }
 }
 
-/// Joins runs that are neighbours.
-/// @param firsts by pair of the runs: becomes the first pair that it is joined with
-void TouchTracker::join(const std::vector<TouchRun>& runs, std::vector<std::uint32_t>& firsts) {
-  joined_.resize(runs.size());
-  NearTouchRuns near(runs, seams_);
-  for (std::uint32_t i = 0; i < runs.size(); ++i) {
-    joined_[i] = i;
-    near.for_each(runs[i], i, [&](std::size_t neighbour) {
-      const std::uint32_t x = first_of(joined_, static_cast<std::uint32_t>(neighbour));
-      const std::uint32_t y = first_of(joined_, i);
-      joined_[std::max(x, y)] = std::min(x, y);
-    });
-  }
-  for (std::uint32_t i = 0; i < runs.size(); ++i) {
-    std::fill(firsts.begin() + runs[i].begin, firsts.begin() + runs[i].end,
-              runs[first_of(joined_, i)].begin);
-  }
-}
-
 /// patches_ is the first pair of each pair's patch; of a patch that has parted, of its part.
 void TouchTracker::find_patches(const std::vector<TouchingPair>& pairs) {
   const auto is_gone = [&pairs](std::size_t i) -> std::uint64_t {
@@ -95,7 +97,7 @@ void TouchTracker::find_patches(const std::vector<TouchingPair>& pairs) {
   };
   find_touch_runs(pairs, is_gone, runs_);
   patches_.resize(pairs.size());
-  join(runs_, patches_);
+  join_runs(runs_, seams_, joined_, patches_);
   partings_.clear();
   if (find_parts(pairs)) {
     share_gone_pairs(pairs);
@@ -114,7 +116,7 @@ bool TouchTracker::find_parts(const std::vector<TouchingPair>& pairs) {
   find_touch_runs(
       pairs, [&pairs](std::size_t i) { return pairs[i].is_gone ? no_kind : 0; }, other_runs_);
   parts_.assign(pairs.size(), none);
-  join(other_runs_, parts_);
+  join_runs(other_runs_, seams_, joined_, parts_);
   bool one_has_parted = false;
   partings_.assign(pairs.size(), {none, false, {std::chrono::nanoseconds::max(), {}}});
   for (std::size_t i = 0; i < pairs.size(); ++i) {

@@ -136,7 +136,6 @@ class FIBER_PROXIMITY_EXPORT TouchTracker {
     std::uint32_t touch;
   };
 
-  void join(const std::vector<TouchRun>& runs, std::vector<std::uint32_t>& firsts);
   void find_patches(const std::vector<TouchingPair>& pairs);
   bool find_parts(const std::vector<TouchingPair>& pairs);
   void share_gone_pairs(const std::vector<TouchingPair>& pairs);
@@ -169,7 +168,7 @@ class FIBER_PROXIMITY_EXPORT TouchTracker {
   std::vector<std::uint32_t> parts_;    // the same, of what is there at the end of the step
   std::vector<TouchRun> runs_;          // each of one patch, there or gone at the end of the step
   std::vector<TouchRun> other_runs_;
-  std::vector<std::uint32_t> joined_;  // by run: the first run that it is joined with
+  std::vector<std::uint32_t> joined_;  // by run: an earlier run that it is joined with, or itself
 
   /// The outcome of a patch.
   struct Parting {
