@@ -6,7 +6,6 @@
 #include <boost/shared_ptr.hpp>
 #include <functional>
 #include <string>
-#include <utility>
 
 #include "src/ros/support/pool.hpp"
 
@@ -21,7 +20,7 @@ using Newcomer = std::function<void()>;
 template <class Message>
 class OutputTopic {
  public:
-  explicit OutputTopic(ros::Publisher publisher = {}) : publisher_(std::move(publisher)) {}
+  explicit OutputTopic(const ros::Publisher& publisher = {}) : publisher_(publisher) {}
 
   OutputTopic(ros::NodeHandle node, const std::string& topic, const Newcomer& on_newcomer)
       : OutputTopic(node.advertise<Message>(
