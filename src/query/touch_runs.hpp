@@ -107,8 +107,12 @@ class NearTouchRuns {
 
   template <class Use>
   void for_each_across_seams(const TouchRun& run, std::size_t end, const Use& use) const {
+    const std::uint32_t last_a = last_of(run.a);
     const std::uint32_t last_b = seams_.are_of_both ? last_of(run.first_b) : 0;
-    const std::array<Near, 3> near_a = around(run.a, last_of(run.a));
+    if (last_a == 0 && last_b == 0) {
+      return;
+    }
+    const std::array<Near, 3> near_a = around(run.a, last_a);
     for (std::uint64_t segment_b = run.first_b; segment_b <= run.last_b; ++segment_b) {
       for (const Near& b : around(segment_b, last_b)) {
         for (const Near& a : near_a) {

@@ -13,33 +13,21 @@ namespace {
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 constexpr TimeBounds never{std::chrono::nanoseconds::max(), std::chrono::nanoseconds::max()};
 
-/// The first run that one is joined with; makes the way there shorter.
-std::uint32_t first_of(std::vector<std::uint32_t>& joined, std::uint32_t run) {
-  while (joined[run] != run) {
-    joined[run] = joined[joined[run]];
-    run = joined[run];
-  }
-  return run;
-}
-
 /// Joins runs that are neighbours.
-/// @param joined becomes by run an earlier one that it is joined with, or itself
+/// @param roots  becomes by run the first that it is joined with
 /// @param firsts by pair of the runs: becomes the first pair that it is joined with
-void join_runs(const std::vector<TouchRun>& runs, const TouchSeams& seams,
-               std::vector<std::uint32_t>& joined, std::vector<std::uint32_t>& firsts) {
-  joined.resize(runs.size());
+void join_runs(const std::vector<TouchRun>& runs, const TouchSeams& seams, DisjointSets& joined,
+               std::vector<std::uint32_t>& roots, std::vector<std::uint32_t>& firsts) {
+  joined.reset(static_cast<std::uint32_t>(runs.size()));
   NearTouchRuns near(runs, seams);
   for (std::uint32_t i = 0; i < runs.size(); ++i) {
-    joined[i] = i;
     near.for_each(runs[i], i, [&](std::size_t neighbour) {
-      const std::uint32_t x = first_of(joined, static_cast<std::uint32_t>(neighbour));
-      const std::uint32_t y = first_of(joined, i);
-      joined[std::max(x, y)] = std::min(x, y);
+      joined.join(static_cast<std::uint32_t>(neighbour), i);
     });
   }
-  for (std::uint32_t i = 0; i < runs.size(); ++i) {
-    std::fill(firsts.begin() + runs[i].begin, firsts.begin() + runs[i].end,
-              runs[first_of(joined, i)].begin);
+  joined.find_roots(roots);
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    std::fill(firsts.begin() + runs[i].begin, firsts.begin() + runs[i].end, runs[roots[i]].begin);
   }
 }
 
@@ -97,7 +85,7 @@ void TouchTracker::find_patches(const std::vector<TouchingPair>& pairs) {
   };
   find_touch_runs(pairs, is_gone, runs_);
   patches_.resize(pairs.size());
-  join_runs(runs_, seams_, joined_, patches_);
+  join_runs(runs_, seams_, joined_, roots_, patches_);
   partings_.clear();
   if (find_parts(pairs)) {
     share_gone_pairs(pairs);
@@ -116,7 +104,7 @@ bool TouchTracker::find_parts(const std::vector<TouchingPair>& pairs) {
   find_touch_runs(
       pairs, [&pairs](std::size_t i) { return pairs[i].is_gone ? no_kind : 0; }, other_runs_);
   parts_.assign(pairs.size(), none);
-  join_runs(other_runs_, seams_, joined_, parts_);
+  join_runs(other_runs_, seams_, joined_, roots_, parts_);
   bool one_has_parted = false;
   partings_.assign(pairs.size(), {none, false, {std::chrono::nanoseconds::max(), {}}});
   for (std::size_t i = 0; i < pairs.size(); ++i) {
@@ -145,8 +133,9 @@ void TouchTracker::share_gone_pairs(const std::vector<TouchingPair>& pairs) {
       unshared.push_back(i);
     }
   }
-  while (!unshared.empty()) {
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> shared;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> shared;
+  do {
+    shared.clear();
     NearTouchRuns near(other_runs_, seams_);
     for (const std::uint32_t i : unshared) {
       std::uint32_t part = none;
@@ -156,14 +145,14 @@ void TouchTracker::share_gone_pairs(const std::vector<TouchingPair>& pairs) {
         shared.emplace_back(i, part);
       }
     }
-    assert(!shared.empty());
     for (const auto& [pair, part] : shared) {
       parts_[pair] = part;
     }
     unshared.erase(std::remove_if(unshared.begin(), unshared.end(),
                                   [this](std::uint32_t i) { return parts_[i] != none; }),
                    unshared.end());
-  }
+  } while (!shared.empty());
+  assert(unshared.empty());  // each is of a patch that has a part
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const Parting parting = partings_[patches_[i]];
     if (parting.has_parted) {

@@ -9,6 +9,7 @@
 
 #include "fiber_proximity/export.hpp"
 #include "fiber_proximity/query/contact.hpp"
+#include "src/geometry/disjoint_sets.hpp"
 
 namespace fiber {
 
@@ -168,7 +169,8 @@ class FIBER_PROXIMITY_EXPORT TouchTracker {
   std::vector<std::uint32_t> parts_;    // the same, of what is there at the end of the step
   std::vector<TouchRun> runs_;          // each of one patch, there or gone at the end of the step
   std::vector<TouchRun> other_runs_;
-  std::vector<std::uint32_t> joined_;  // by run: an earlier run that it is joined with, or itself
+  DisjointSets joined_;               // runs that are neighbours
+  std::vector<std::uint32_t> roots_;  // by run: the first that it is joined with
 
   /// The outcome of a patch.
   struct Parting {

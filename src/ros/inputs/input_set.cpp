@@ -85,15 +85,18 @@ void InputSet::doubt(double time) {
   }
 }
 
-const Input& InputSet::input_of(std::size_t fiber) const {
-  for (const std::unique_ptr<Input>& input : inputs_) {
-    const std::size_t count = input->is_fresh() ? input->fibers().fiber_count() : 0;
-    if (fiber < count) {
-      return *input;
-    }
-    fiber -= count;
+std::string InputSet::topic_of_most(const std::vector<fiber::Contact>& contacts) const {
+  std::vector<std::size_t> inputs;  // by fibre
+  for (std::size_t i = 0; i < inputs_.size(); ++i) {
+    inputs.resize(inputs.size() + (inputs_[i]->is_fresh() ? inputs_[i]->fibers().fiber_count() : 0),
+                  i);
   }
-  throw std::out_of_range("there is no fibre of this index");
+  std::vector<std::size_t> counts(inputs_.size());
+  for (const fiber::Contact& contact : contacts) {
+    ++counts[inputs[contact.fiber_a]];
+  }
+  const auto most = std::max_element(counts.begin(), counts.end());
+  return contacts.empty() ? "" : inputs_[most - counts.begin()]->options().topic;
 }
 
 std::vector<Unknown> InputSet::unknown() const {

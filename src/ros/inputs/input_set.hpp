@@ -50,8 +50,8 @@ class InputSet {
   /// An answer about these fibres has taken so long [s]: one of the inputs may cost too much.
   void doubt(double time);
 
-  /// The input of the fibre with this index among all.
-  const Input& input_of(std::size_t fiber) const;
+  /// The topic from which the first fibres of most of these contacts come; empty without contacts.
+  std::string topic_of_most(const std::vector<fiber::Contact>& contacts) const;
 
   /// The fibres of all fresh inputs, merged at the first call after a change. They stay as they are
   /// while somebody holds them.

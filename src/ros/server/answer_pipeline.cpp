@@ -2,9 +2,7 @@
 
 #include <ros/console.h>
 
-#include <algorithm>
 #include <limits>
-#include <map>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -216,26 +214,16 @@ void AnswerPipeline::detect() {
     ROS_ERROR_STREAM_THROTTLE(1.0, "engine " << detector_.engine_name() << ": " << error.what());
   }
   if (const std::string problem = found.limit_problem(settings_.query()); !problem.empty()) {
+    const std::string most = scene_.fibers.topic_of_most(found.contacts().contacts);
     ROS_WARN_STREAM_THROTTLE(1.0, "fibres (engine " << detector_.engine_name() << "): " << problem
-                                                    << input_with_most_contacts());
+                                                    << (most.empty() ? "" : ". Most are of input ")
+                                                    << most);
   }
   add_part("update", detector_.update_time(), !found.has_failed());
   add_part("contacts", found.contact_time(), found.are_contacts_complete());
   if (wants_minimum) {
     add_part("minimum", found.minimum_time(), found.is_minimum_complete());
   }
-}
-
-/// Which input most of the contacts are of, for the log.
-std::string AnswerPipeline::input_with_most_contacts() const {
-  std::map<std::string, std::size_t> counts;
-  for (const fiber::Contact& contact : detector_.detection().contacts().contacts) {
-    ++counts[scene_.fibers.input_of(contact.fiber_a).options().topic];
-  }
-  const auto most =
-      std::max_element(counts.begin(), counts.end(),
-                       [](const auto& x, const auto& y) { return x.second < y.second; });
-  return most == counts.end() ? "" : ". Most are of input " + most->first;
 }
 
 /// Recognises the contacts that were found, and publishes them.

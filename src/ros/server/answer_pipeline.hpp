@@ -68,7 +68,6 @@ class AnswerPipeline {
   std::vector<Stage> planned_stages(bool wants_contacts, bool looks_around) const;
   void publish_fibers();
   void detect();
-  std::string input_with_most_contacts() const;
   void publish_contacts();
   void detect_in_environment();
   void predict();
