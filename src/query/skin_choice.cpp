@@ -32,6 +32,9 @@ constexpr std::uint32_t longest_kept = 8;    // [stretches]
 // A skin must save this part of a frame, as costs are estimates.
 constexpr double least_gain = 0.05;
 
+// Choices that find none may take this part of the time.
+constexpr double most_loss = 0.05;
+
 // The part of the segments by whose motion the skin goes. The others may be looked for anew alone
 // (RunTreeEngine::most_still_serve).
 constexpr double followed_part = 0.75;
@@ -141,6 +144,9 @@ void SkinChoice::choose(const FiberAssembly& fibers, const Estimate& estimate) {
   }
   // Where there is little to search, a choice takes as much as some searches do.
   if (best == 0.0 || (without - least) * best * longest_kept < estimated * without) {
+    next_wait_ =
+        std::max(next_wait_,
+                 static_cast<std::uint32_t>(std::min<double>(longest_wait, estimated / most_loss)));
     do_without();
     return;
   }

@@ -28,7 +28,8 @@ struct SearchSize {
 /// The last stretch tells how far points move in a frame; a part of the search tells how many pairs
 /// a skin has. The n that costs least is taken, and kept for the next 1, 2, 4, 8 stretches as long
 /// as they last for about as many frames; its skin goes by how far points move. Where none pays,
-/// motion is looked at again after 1, 2, 4 … 256 frames.
+/// motion is looked at again after 1, 2, 4 … 256 frames, and no sooner than so that choices take a
+/// twentieth of the time.
 ///
 /// Costs are counts times the time that one takes, not what a clock says: the same input gives the
 /// same choices.
