@@ -136,20 +136,22 @@ ContactBatch::Found ContactBatch::collect(const RunTreeView& a, const RunTreeVie
 }
 
 SearchSize ContactBatch::estimate(const RunTreeView& tree, const NarrowPhase& test, double bound,
-                                  bool prunes) {
-  // A larger part tells more than costs need; much more than any skin can pay for is enough to
-  // know.
-  constexpr std::uint32_t least_groups = 32;
+                                  double most_pairs, bool prunes) {
+  constexpr std::uint32_t least_groups = 32;  // a larger part tells more than costs need
   constexpr std::uint32_t most_groups = 96;
   constexpr std::uint32_t part = 64;
-  constexpr std::uint64_t most_pairs = 1U << 18U;
+  constexpr double most_counted = 1U << 18U;
   const std::uint32_t groups = tree.group_count();
   const std::uint32_t wanted = std::clamp(groups / part, least_groups, most_groups);
   const std::uint32_t stride = std::max(1U, groups / wanted);
   const std::uint32_t first = stride / 2;
   const std::uint32_t searched = groups <= first ? 0 : (groups - first + stride - 1) / stride;
+  if (searched == 0) {
+    return {};
+  }
+  const double scale = static_cast<double>(groups) / searched;
   QueryLimits limits{QueryOptions()};
-  limits.pairs = most_pairs;
+  limits.pairs = static_cast<std::uint64_t>(std::min(most_counted, most_pairs / scale));
   CandidateCount count(limits);
   jobs_.resize(std::max<std::size_t>(jobs_.size(), searched));
   for_each_of(searched, [&](std::size_t index) {
@@ -163,13 +165,10 @@ SearchSize ContactBatch::estimate(const RunTreeView& tree, const NarrowPhase& te
                          job.counts.node_overlaps);
     }
   });
-  if (count.is_too_much()) {
-    constexpr double too_many = std::numeric_limits<double>::infinity();
-    return {too_many, too_many, 0.0};
+  if (count.is_too_much()) {  // how many have been found depends on the threads
+    return {0.0, scale * static_cast<double>(limits.pairs + 1), 1.0 / scale};
   }
-  SearchSize size;
-  const double scale = searched == 0 ? 0.0 : static_cast<double>(groups) / searched;
-  size.part = searched == 0 ? 0.0 : 1.0 / scale;
+  SearchSize size{0.0, 0.0, 1.0 / scale};
   for (std::uint32_t index = 0; index < searched; ++index) {
     size.overlaps += scale * static_cast<double>(jobs_[index].counts.node_overlaps);
     size.pairs += scale * static_cast<double>(jobs_[index].keys.size());

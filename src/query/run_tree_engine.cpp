@@ -222,8 +222,8 @@ bool RunTreeEngine::find_own(const FiberAssembly& fibers, const NarrowPhase& tes
   with_batch([&](ContactBatch& batch) {
     // Which pairs a length leaves out changes as fibres stretch: such candidates cannot be kept.
     if (options.neighbour_skip_length.value_or(0.0) == 0.0) {
-      const auto estimate = [&](double skin) {
-        return batch.estimate(tree_.view(), test, options.margin + skin, skin == 0.0);
+      const auto estimate = [&](double skin, double most_pairs) {
+        return batch.estimate(tree_.view(), test, options.margin + skin, most_pairs, skin == 0.0);
       };
       skin_.decide(fibers, std::cref(estimate));  // which allocates nothing
       is_found = skin_.keeps_pairs() && moved_.leaves(skin_.skin(), options.margin) &&

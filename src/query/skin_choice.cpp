@@ -32,9 +32,6 @@ constexpr std::uint32_t longest_kept = 8;    // [stretches]
 // A skin must save this part of a frame, as costs are estimates.
 constexpr double least_gain = 0.05;
 
-// Choices that find none may take this part of the time.
-constexpr double most_loss = 0.05;
-
 // The part of the segments by whose motion the skin goes. The others may be looked for anew alone
 // (RunTreeEngine::most_still_serve).
 constexpr double followed_part = 0.75;
@@ -60,6 +57,7 @@ void SkinChoice::start() {
     do_without();
     wait_ = 1;
     next_wait_ = 2;
+    motion_too_fast_ = std::numeric_limits<double>::infinity();
     last_frames_ = first_frames;
     lasted_ = 1.0;
   }
@@ -80,7 +78,8 @@ void SkinChoice::begin_stretch(const FiberAssembly& fibers, const MotionBound* m
       motion_ = std::min(motion_, motion_of_most(fibers, *motion->by_fiber()));
     }
     motion_ /= frames_;
-    if (frames_meant_ > 0.0) {
+    const bool had_one = frames_meant_ > 0.0;
+    if (had_one) {
       const double before = lasted_;
       // A frame less is what rounding may cost.
       const double with_one_more = std::min(1.0, (frames_ + 1) / frames_meant_);
@@ -92,6 +91,8 @@ void SkinChoice::begin_stretch(const FiberAssembly& fibers, const MotionBound* m
     if (kept_for_ > 0) {
       --kept_for_;
       last_for(last_frames_);
+    } else if (!had_one && step * motion_ > motion_too_fast_) {
+      do_without();
     } else {
       frames_meant_ = 0.0;
       skin_ = 0.0;
@@ -116,14 +117,23 @@ void SkinChoice::decide(const FiberAssembly& fibers, const Estimate& estimate) {
 
 void SkinChoice::choose(const FiberAssembly& fibers, const Estimate& estimate) {
   double best = 0.0;
-  const SearchSize search_without = estimate(0.0);
-  const double without = cost(0.0, fibers, search_without);
+  double taken = 0.0;  // [ns] by this
+  const auto size_of = [&](double skin, double most_pairs) {
+    const SearchSize search = estimate(skin, most_pairs);
+    taken += search.part * (overlap_ns * search.overlaps + find_ns * search.pairs);
+    return search;
+  };
+  const double without = cost(0.0, fibers, size_of(0.0, std::numeric_limits<double>::infinity()));
   double least = (1.0 - least_gain) * without;
-  double estimated = search_without.part;  // searches
   const auto is_better = [&](double frames) {
-    const SearchSize search = estimate(skin_of(frames));
+    // A skin of more pairs costs more, whatever else there is.
+    const double of_none = cost(frames, fibers, {});
+    const double of_one = cost(frames, fibers, {0.0, 1.0, 0.0}) - of_none;
+    if (of_none >= least) {
+      return false;
+    }
+    const SearchSize search = size_of(skin_of(frames), (least - of_none) / of_one);
     const double now = cost(frames, fibers, search);
-    estimated += search.part;
     if (now >= least) {
       return false;
     }
@@ -143,10 +153,8 @@ void SkinChoice::choose(const FiberAssembly& fibers, const Estimate& estimate) {
     frames = std::round(frames / step);
   }
   // Where there is little to search, a choice takes as much as some searches do.
-  if (best == 0.0 || (without - least) * best * longest_kept < estimated * without) {
-    next_wait_ =
-        std::max(next_wait_,
-                 static_cast<std::uint32_t>(std::min<double>(longest_wait, estimated / most_loss)));
+  if (best == 0.0 || (without - least) * best * longest_kept < taken) {
+    motion_too_fast_ = motion_;
     do_without();
     return;
   }
@@ -210,6 +218,9 @@ void SkinChoice::do_without() {
   kept_for_ = 0;
   next_kept_for_ = 1;
   wait_ = next_wait_;
+  if (wait_ == longest_wait) {  // what else there is may have changed by then
+    motion_too_fast_ = std::numeric_limits<double>::infinity();
+  }
   next_wait_ = std::min(longest_wait, 2 * next_wait_);
 }
 

@@ -17,7 +17,7 @@ namespace fiber {
 /// What a search of the tree takes, counted or estimated.
 struct SearchSize {
   double overlaps = 0.0;  ///< boxes of nodes and runs that are near others
-  double pairs = 0.0;     ///< that it comes upon
+  double pairs = 0.0;     ///< that it comes upon; at least, where that is more than was asked for
   double part = 0.0;      ///< of it that was searched to tell
 };
 
@@ -28,15 +28,16 @@ struct SearchSize {
 /// The last stretch tells how far points move in a frame; a part of the search tells how many pairs
 /// a skin has. The n that costs least is taken, and kept for the next 1, 2, 4, 8 stretches as long
 /// as they last for about as many frames; its skin goes by how far points move. Where none pays,
-/// motion is looked at again after 1, 2, 4 … 256 frames, and no sooner than so that choices take a
-/// twentieth of the time.
+/// motion is looked at again after 1, 2, 4 … 256 frames, and another choice is made where it has
+/// become slower, or after 256.
 ///
 /// Costs are counts times the time that one takes, not what a clock says: the same input gives the
 /// same choices.
 class SkinChoice {
  public:
-  /// The size of a search, estimated, for pairs up to so much [m] beyond the margin.
-  using Estimate = std::function<SearchSize(double skin)>;
+  /// The size of a search, estimated, for pairs up to so much [m] beyond the margin. It may end
+  /// where there are more than so many.
+  using Estimate = std::function<SearchSize(double skin, double most_pairs)>;
 
   /// @param fixed [m] what the user has chosen; none: it chooses itself
   /// @throws std::invalid_argument if it is negative or not finite
@@ -99,7 +100,9 @@ class SkinChoice {
   bool pays_;    // pairs are kept
   std::uint64_t most_pairs_ = std::numeric_limits<std::uint64_t>::max();
   bool is_due_ = false;
-  double motion_ = 0.0;     // [m] a frame
+  double motion_ = 0.0;  // [m] a frame
+  double motion_too_fast_ =
+      std::numeric_limits<double>::infinity();  // for a skin to pay, [m] a frame
   std::uint32_t wait_ = 1;  // frames until motion is asked for, where no skin pays
   std::uint32_t next_wait_ = 2;
   std::uint32_t frames_ = 0;    // of this stretch
