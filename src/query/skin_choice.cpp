@@ -21,7 +21,7 @@ constexpr double find_ns = 163.0;    // a pair that a search comes upon, its sor
 constexpr double judge_ns = 41.0;    // a pair
 
 constexpr double first_frames = 4.0;  // that the first skin thought of lasts for
-constexpr double least_frames = 2.0;
+constexpr double least_frames = 3.0;  // one that serves a single frame more has too little to win
 constexpr double most_frames = 4096.0;
 constexpr double reserve = 1.05;             // by which points may move more than they did
 constexpr double step = 1.5;                 // from one skin that is thought of to the next
