@@ -86,6 +86,7 @@ class PythonDeviceProximity {
   }
 
   std::optional<int> gpu() const { return proximity_->gpu(); }
+  std::size_t candidate_count() const { return proximity_->candidate_count(); }
   double device_seconds() const { return proximity_->device_seconds(); }
 
  private:
@@ -115,6 +116,12 @@ class PythonDeviceContacts {
   template <class Value>
   DeviceValues values(const Value* data) const {
     return {data, contacts_.count, sizeof(Value), of_->gpu()};
+  }
+
+  bool has_candidates() const { return contacts_.candidate_begins != nullptr; }
+  DeviceValues candidate_begins() const {
+    return {contacts_.candidate_begins, of_->candidate_count() + 1, sizeof(std::uint32_t),
+            of_->gpu()};
   }
 
   py::dict to_host() const {
@@ -153,6 +160,15 @@ PythonDeviceArray array_of(const std::shared_ptr<PythonDeviceContacts>& contacts
           [](const PythonDeviceContacts& of) { return of.values(of.contacts().*member); }};
 }
 
+std::optional<PythonDeviceArray> candidate_begins_of(
+    const std::shared_ptr<PythonDeviceContacts>& contacts) {
+  if (!contacts->has_candidates()) {
+    return std::nullopt;
+  }
+  return PythonDeviceArray{contacts,
+                           [](const PythonDeviceContacts& of) { return of.candidate_begins(); }};
+}
+
 /// @throws py::buffer_error for what only a copy could be
 py::capsule dlpack_of(const PythonDeviceArray& array, const py::object& /*stream*/,
                       const py::object& /*max_version*/, const py::object& dl_device,
@@ -185,7 +201,7 @@ void bind_device_proximity(py::module& module) {
            py::arg("copy") = py::none())
       .def("__dlpack_device__",
            [](const PythonDeviceArray& array) { return to_dlpack_device(array.values()); })
-      .def("__len__", [](const PythonDeviceArray& array) { return array.contacts->count(); });
+      .def("__len__", [](const PythonDeviceArray& array) { return array.values().count; });
 
   using Contacts = std::shared_ptr<PythonDeviceContacts>;
   py::class_<PythonDeviceContacts, Contacts>(
@@ -208,6 +224,10 @@ void bind_device_proximity(py::module& module) {
           "distance",
           [](const Contacts& all) { return array_of<&DeviceProximity::Contacts::distance>(all); },
           "Signed gap of the surfaces [m], float64.")
+      .def_property_readonly(
+          "candidate_begins", &candidate_begins_of,
+          "Which contact is the first of each candidate, and how many there are: uint32, one more "
+          "than candidates. None without candidates.")
       .def("to_host", &PythonDeviceContacts::to_host,
            "All five as arrays of numpy, in a dict by their names. With candidates also "
            "`candidate_begins`: which contact is the first of each, and how many there are.")

@@ -74,8 +74,11 @@ class Device(unittest.TestCase):
             np.testing.assert_array_equal(touching, ~free)
             self.assertTrue(0 < np.count_nonzero(touching) < 40, touching)
         expected = engine.check(batch, radii=0.001, type='all', neighbour_skip=1).contacts['candidate']
-        found = proximity.query().to_host()
+        contacts = proximity.query()
+        found = contacts.to_host()
         np.testing.assert_array_equal(np.diff(found['candidate_begins']), np.bincount(expected, minlength=40))
+        self.assertEqual(len(contacts.candidate_begins), 41)
+        np.testing.assert_array_equal(np.from_dlpack(contacts.candidate_begins), found['candidate_begins'])
         with self.assertRaisesRegex(ValueError, r'candidates\[1\] is 500'):
             fp.DeviceProximity(offsets, 0.001, device='host', candidates=[0, 500])
         points[31, 2] = np.nan
@@ -87,6 +90,7 @@ class Device(unittest.TestCase):
         proximity = fp.DeviceProximity(offsets, 0.01, device='host')
         proximity.update(points)
         contacts = proximity.query()
+        self.assertIsNone(contacts.candidate_begins)
         arrays = contacts.to_host()
         for name, type in ('a', np.uint32), ('b', np.uint32), ('s', float), ('t', float), ('distance', float):
             array = getattr(contacts, name)
