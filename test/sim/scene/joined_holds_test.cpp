@@ -1,6 +1,7 @@
 // Holds that tear what is joined.
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -17,7 +18,9 @@ using Eigen::Vector3d;
 /// The least energy of a net's ropes, joint by joint: an oracle that is slow and simple.
 double least_energy(const RopeNet& net, std::vector<Vector3d> ends) {
   double energy = 0.0;
-  for (int sweep = 0; sweep < 20000; ++sweep) {
+  double moved = 1.0;  // in the last sweep, at most
+  for (int sweep = 0; sweep < 20000 && moved > 1e-15; ++sweep) {
+    moved = 0.0;
     for (std::size_t joint = 0; joint < net.joint_count; ++joint) {
       Vector3d sum = Vector3d::Zero();
       int count = 0;
@@ -31,6 +34,7 @@ double least_energy(const RopeNet& net, std::vector<Vector3d> ends) {
         sum += other + std::min(1.0, rope.length / way.norm()) * way;
         ++count;
       }
+      moved = std::max(moved, (sum / count - ends[joint]).norm());
       ends[joint] = sum / count;
     }
   }
