@@ -7,6 +7,7 @@ add_library(fiber_proximity_sim SHARED
   src/sim/contact/contact_derivatives.cpp
   src/sim/contact/contact_set_forces.cpp
   src/sim/contact/contact_set_motion.cpp
+  src/sim/contact/contact_set_work.cpp
   src/sim/contact/friction_anchors.cpp
   src/sim/contact/impact.cpp
   src/sim/contact/surface_lever.cpp
@@ -44,6 +45,7 @@ add_library(fiber_proximity_sim SHARED
   src/sim/solver/newton.cpp
   src/sim/solver/pack_kernels.cpp
   src/sim/solver/newton_convergence.cpp
+  src/sim/solver/newton_gains.cpp
   src/sim/solver/newton_correction.cpp
   src/sim/solver/newton_impacts.cpp
   src/sim/solver/newton_obstacles.cpp

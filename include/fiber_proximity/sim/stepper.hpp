@@ -51,6 +51,10 @@ struct IslandReport {
   std::uint32_t rod = 0;         ///< whose residual that is
   std::uint32_t node = 0;        ///< counted from the rod's first one
   std::uint32_t impacts = 0;     ///< contacts that shared in an impact, or in what it left
+
+  /// Points of contacts that press along their normals in the middle of the step: along those at
+  /// its end they would have pushed rods on along their way, and gained energy.
+  std::uint32_t midpoint_contacts = 0;
 };
 
 /// The result of a step.
@@ -60,7 +64,8 @@ struct StepReport {
   IslandReport worst;              ///< the island with the largest residual
   std::uint32_t coupled_rods = 0;  ///< that were solved together with others
 
-  std::uint32_t impacts = 0;  ///< contacts that shared in an impact, or in what it left
+  std::uint32_t impacts = 0;            ///< of all islands, as in IslandReport
+  std::uint32_t midpoint_contacts = 0;  ///< of all islands, alike
 
   /// Whether a step of BDF2 was one of implicit Euler, because a contact began in it or in the one
   /// before.
@@ -69,9 +74,9 @@ struct StepReport {
   /// The increase of kinetic and stored energy by the step, without the work of its input [J]. A
   /// converged step of implicit Euler gains none where the stored energy is convex on its way.
   /// Where it is not, as in buckling, it may gain what is left of the kinetic energy of the end
-  /// less that of how speeds have changed, and so may a step that its iterations cut short. Such a
-  /// step may gain more where friction grew in it with its normal forces, or impacts changed
-  /// speeds.
+  /// less that of how speeds have changed, and so may a step that its iterations cut short; by
+  /// contacts only the latter. Such a step may gain more where friction grew in it with its normal
+  /// forces, or impacts changed speeds.
   double energy_gain = 0.0;
 };
 

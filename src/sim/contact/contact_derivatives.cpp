@@ -113,16 +113,15 @@ void ContactSet::find_terms(const Rods& rods, std::size_t contact, DistanceTerms
   const FrictionPoint& point = frictions_[contact - distance_count()];
   const Vector3d slip = point.slip(rods);
   const double length = slip.norm();
-  const Friction::Law law = Friction::law(length, stick_length_);
+  const Friction::Law law = point.law(length, stick_length_);
   Matrix3d hessian =
       law.resistance * (Matrix3d::Identity() - point.normal * point.normal.transpose());
   if (length > 0.0) {
     const Vector3d along = slip / length;
     hessian += (law.curvature - law.resistance) * along * along.transpose();
   }
-  derivatives.terms.push_back({point.points, point.max_force * law.resistance * slip,
-                               point.max_force * hessian, 0.0,
-                               point.levers ? &*point.levers : nullptr});
+  derivatives.terms.push_back(
+      {point.points, law.resistance * slip, hessian, 0.0, point.levers ? &*point.levers : nullptr});
 }
 
 void add_derivatives(const ContactTerms& terms, const Rods& rods,

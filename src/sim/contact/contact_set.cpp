@@ -151,7 +151,8 @@ void ContactSet::update_friction(const Rods& rods, const std::vector<std::uint32
   }
   frictions_.erase(std::remove_if(frictions_.begin(), frictions_.end(),
                                   [&](const FrictionPoint& point) {
-                                    return share_of(point.points.rod_a) > 0.0;
+                                    return point.viscosity == 0.0 &&
+                                           share_of(point.points.rod_a) > 0.0;
                                   }),
                    frictions_.end());
   add_friction(rods, share_of);
@@ -160,11 +161,12 @@ void ContactSet::update_friction(const Rods& rods, const std::vector<std::uint32
 
 void ContactSet::add_anchors(const Rods& rods, FrictionAnchors& anchors) const {
   for (const FrictionPoint& point : frictions_) {
-    const Vector3d slip = point.slip(rods);
-    const double length = slip.norm();
-    const Friction::Law law = Friction::law(std::min(length, stick_length_), stick_length_);
-    anchors.add({point.points, point.normal, slip / std::max(length, stick_length_),
-                 point.max_force * law.energy});
+    if (point.viscosity == 0.0) {
+      const Vector3d slip = point.slip(rods);
+      const double length = slip.norm();
+      anchors.add({point.points, point.normal, slip / std::max(length, stick_length_),
+                   point.stored_energy(length, stick_length_)});
+    }
   }
 }
 
@@ -219,7 +221,15 @@ Vector3d ContactSet::FrictionPoint::slip(const Rods& rods) const {
 
 Vector3d ContactSet::FrictionPoint::force(const Rods& rods, double stick_length) const {
   const Vector3d slipped = slip(rods);
-  return -max_force * Friction::law(slipped.norm(), stick_length).resistance * slipped;
+  return -law(slipped.norm(), stick_length).resistance * slipped;
+}
+
+Friction::Law ContactSet::FrictionPoint::law(double slip, double stick_length) const {
+  if (viscosity > 0.0) {
+    return {0.5 * viscosity * slip * slip, viscosity, viscosity};
+  }
+  const Friction::Law unit = Friction::law(slip, stick_length);
+  return {max_force * unit.energy, max_force * unit.resistance, max_force * unit.curvature};
 }
 
 double ContactSet::energy_of(const Rods& rods, std::size_t contact) const {
@@ -231,7 +241,7 @@ double ContactSet::energy_of(const Rods& rods, std::size_t contact) const {
     return edge_contact(pairs[contact], rods.positions, distances_[contact], nullptr);
   }
   const FrictionPoint& point = frictions_[contact - pairs.size()];
-  return point.max_force * Friction::law(point.slip(rods).norm(), stick_length_).energy;
+  return point.law(point.slip(rods).norm(), stick_length_).energy;
 }
 
 /// Those from the first one asked for.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <optional>
@@ -96,6 +97,31 @@ class ContactSet {
   void update_friction(const Rods& rods, const std::vector<std::uint32_t>& islands,
                        const std::vector<double>& shares);
 
+  /// Adds the work that the contacts of each island have done in the step beyond the energy that
+  /// they have given back.
+  ///
+  /// In a step of implicit Euler a contact presses along its normal at the end of the step. Where
+  /// its sides have slid round each other, that points along their way, and pushes them on: over a
+  /// slip s at the distance d, a force p does the work p s² / 2d too much.
+  /// @param islands by rod
+  void add_excess_work(const Rods& rods, const std::vector<std::uint32_t>& islands,
+                       std::vector<double>& work) const;
+
+  /// Adds the energies of the slips at which contacts with friction are, where others are more than
+  /// 0 [J].
+  /// @param islands by rod
+  void add_slip_energies(const Rods& rods, const std::vector<std::uint32_t>& islands,
+                         std::vector<double>& energies) const;
+
+  /// Has the contacts of some islands press along their normals in the middle of the way, which
+  /// have no excess work: a force that resists the motion turns that along the normal at the end.
+  /// Replaces what it was turned by before. Not where the sides have come round from the other
+  /// side: there is no such middle.
+  /// @param which by island
+  /// @param count by island: of the points that have such a force
+  void use_midpoint_normals(const Rods& rods, const std::vector<std::uint32_t>& islands,
+                            const std::vector<bool>& which, std::vector<std::uint32_t>& count);
+
   /// Adds the slips at which the contacts with friction end the step.
   /// @param rods where they are then
   void add_anchors(const Rods& rods, FrictionAnchors& anchors) const;
@@ -190,16 +216,26 @@ class ContactSet {
   void add_obstacle_forces(const Rods& rods, std::vector<RodForces::ObstacleForce>& forces) const;
 
  private:
-  /// A contact with a normal force.
+  /// A contact with a normal force, and what resists its slip: friction, or what turns that force
+  /// to the normal in the middle of the way.
   struct FrictionPoint {
     std::size_t contact;
     ContactPoints points;
-    Eigen::Vector3d normal;
-    double max_force;                     // [N]
+    Eigen::Vector3d normal;               // zero: it resists all motion, not slip alone
+    double max_force;                     // of friction [N]
     Eigen::Vector3d reference;            // from the point of b to that of a, where slip is nil [m]
     std::optional<SurfaceLevers> levers;  // from the axes to where it acts; none: on the axes
+    double viscosity = 0.0;               // 0: it is friction [N/m]
 
     Eigen::Vector3d slip(const Rods& rods) const;
+
+    /// What of its energy is given back: what has slid is lost [J].
+    double stored_energy(double slip, double stick_length) const {
+      return law(std::min(slip, stick_length), stick_length).energy;
+    }
+
+    /// In [J], [N/m] and [N/m].
+    Friction::Law law(double slip, double stick_length) const;
 
     /// On a [N].
     Eigen::Vector3d force(const Rods& rods, double stick_length) const;
@@ -208,6 +244,8 @@ class ContactSet {
   void relax_initial_overlap(const Rods& rods);
   template <class ShareOf>
   void add_friction(const Rods& rods, const ShareOf& share_of);
+  template <class Function>
+  void for_each_excess_work(const Rods& rods, const Function& function) const;
   double restitution_of(std::size_t contact) const;
   Eigen::Vector3d obstacle_velocity(const Rods& rods, const ContactPoints& points) const;
   void add_terms_of_motion(const Rods& rods);

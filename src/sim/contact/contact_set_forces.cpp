@@ -60,7 +60,9 @@ void ContactSet::add_forces(const Rods& rods, std::vector<RodForces::ContactForc
     if (force.point.isZero(0.0)) {
       force.point = point_at(rods.positions, point.points.edge_a, point.points.s);
     }
-    force.friction_force += point.force(rods, stick_length_);
+    // What takes back excess work turns the normal force to where it is along the way.
+    (point.viscosity > 0.0 ? force.normal_force : force.friction_force) +=
+        point.force(rods, stick_length_);
   }
 }
 

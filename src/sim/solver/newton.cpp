@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "src/sim/solver/coupling.hpp"
 #include "src/sim/solver/pack_kernels.hpp"
@@ -82,8 +81,10 @@ std::optional<double> NewtonSolver::solve(Rods& rods, const Problem& problem) {
   }
   find_free_islands(problem);
   evaluate_energies(rods, problem);
-  find_stored_energies(problem, max_kinetic_);
-  const double stored_before = std::accumulate(max_kinetic_.begin(), max_kinetic_.end(), 0.0);
+  find_stored_energies(problem, stored_of_start_);
+  if (problem.contacts != nullptr) {
+    find_kinetic_energies(rods, kinetic_of_start_);
+  }
   if (!predict(rods, problem) || !move_obstacles(rods, problem)) {
     return std::nullopt;
   }
@@ -95,8 +96,12 @@ std::optional<double> NewtonSolver::solve(Rods& rods, const Problem& problem) {
     check_convergence(rods, problem, iteration);
     const bool is_any_active = std::any_of(states_.begin(), states_.end(),
                                            [](const auto& state) { return state.is_active; });
-    if (!is_any_active || iteration == problem.options.max_iterations) {
-      break;
+    const bool may_go_on = iteration < problem.options.max_iterations;
+    if (!is_any_active || !may_go_on) {
+      if (!find_gains(rods, problem, may_go_on)) {
+        break;
+      }
+      continue;
     }
     find_newton_step(problem);
     if (!bound_step(rods, problem)) {
@@ -119,24 +124,20 @@ std::optional<double> NewtonSolver::solve(Rods& rods, const Problem& problem) {
     const std::uint32_t island = scratch_->islands[impact.points.rod_a];
     has_impacts_[island] = has_impacts_[island] || impact.has_begun;
   }
-  // An impact gives back no more than what the first minimum has taken.
-  find_stored_energies(problem, stored_);
-  double work = obstacle_work(rods, problem);  // which may be given back as well
-  if (!impacts.empty()) {
-    const std::vector<double> kinetic = kinetic_energies(rods);
-    for (std::size_t i = 0; i < kinetic.size(); ++i) {
-      max_kinetic_[i] += kinetic[i] - stored_[i];
-    }
-  }
   for_each_pack(packs_.size(), Work::LITTLE, [&](std::size_t pack) { packs_[pack].finish(rods); });
   if (problem.travel_bound != nullptr && !problem.travel_bound->is_final &&
       !bound_.is_within(rods, members_)) {
     return std::nullopt;
   }
-  if (!impacts.empty() && problem.has_start_rates) {
-    work += resolve_impacts(rods, problem, impacts);
+  limit_velocities(rods);
+  double gain = 0.0;
+  for (std::size_t i = 0; i < states_.size(); ++i) {
+    gain += stored_[i] - stored_of_start_[i] - obstacle_work_[i];
   }
-  return std::accumulate(stored_.begin(), stored_.end(), 0.0) - stored_before - work;
+  if (!impacts.empty() && problem.has_start_rates) {
+    gain -= resolve_impacts(rods, problem, impacts);
+  }
+  return gain;
 }
 
 /// Sums the incremental potential where the rods are, by island.

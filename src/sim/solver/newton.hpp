@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -94,10 +95,13 @@ class NewtonSolver {
     std::uint32_t corrections = 0;     ///< iterations of correct_short_steps()
     double residual_before = 0.0;      ///< of the iteration before [m/s]
     bool is_free = true;               ///< nothing holds or may touch its rods
+    bool is_bound = false;             ///< something holds them, or is an obstacle near them
     bool is_active = true;             ///< iterates
     bool has_friction_of_now = false;  ///< by the normal forces where its rods are
     double friction_share = 1.0;       ///< of the way to these forces that updates go
     double friction_change = 0.0;      ///< of energy by all of the way, in the last one [J]
+    double gain = std::numeric_limits<double>::infinity();  ///< at the minimum before [J]
+    bool has_new_gain = false;                              ///< which no iteration has answered yet
     bool is_converged = false;
     bool was_converged = false;  ///< before multipliers were updated
   };
@@ -122,7 +126,8 @@ class NewtonSolver {
   void evaluate_energies(Rods& rods, const Problem& problem);
   void sum_energies(const Problem& problem);
   void find_stored_energies(const Problem& problem, std::vector<double>& stored) const;
-  std::vector<double> kinetic_energies(const Rods& rods) const;
+  void find_kinetic_energies(const Rods& rods, std::vector<double>& energies) const;
+  void find_max_kinetic();
   double resolve_impacts(Rods& rods, const Problem& problem, const std::vector<Impact>& impacts);
   bool predict(Rods& rods, const Problem& problem);
   void take_obstacles_along(Rods& rods, const Problem& problem);
@@ -131,13 +136,16 @@ class NewtonSolver {
   void raise_drives(const Rods& rods, const Problem& problem);
   void keep_stuck(const MovedShapes& moved);
   bool move_with_obstacles(Rods& rods, const Problem& problem);
-  double obstacle_work(const Rods& rods, const Problem& problem);
+  void find_obstacle_work(const Rods& rods, const Problem& problem);
   void assemble(Rods& rods, const Problem& problem);
   void add_joints_to_step(const Problem& problem);
   void find_free_islands(const Problem& problem);
   void check_convergence(Rods& rods, const Problem& problem, std::uint32_t iteration);
   bool update_multipliers(Rods& rods, const Problem& problem);
   void update_friction(const Rods& rods, const Problem& problem);
+  bool find_gains(const Rods& rods, const Problem& problem, bool may_go_on);
+  bool take_back_gains(const Rods& rods, const Problem& problem);
+  void limit_velocities(Rods& rods) const;
   void find_residuals();
   void find_newton_step(const Problem& problem);
   void update_directional_derivatives();
@@ -161,9 +169,11 @@ class NewtonSolver {
   std::vector<double> drives_;                             // of obstacles, by island [J]
   std::vector<ContactSet::MotionEnergy> motion_energies_;  // by island
   std::vector<double> obstacle_work_;                      // in the solve, by island [J]
-  std::vector<double> stored_;        // energy at the end of the solve, by island [J]
-  std::vector<double> max_kinetic_;   // energy after impacts, by island [J]
-  std::vector<double> trial_shares_;  // of the step, by island: bounds, then those accepted
+  std::vector<double> stored_of_start_;   // energy at the start of the solve, by island [J]
+  std::vector<double> kinetic_of_start_;  // energy, by island [J]
+  std::vector<double> stored_;            // energy at the end of the solve, by island [J]
+  std::vector<double> max_kinetic_;       // energy with which nothing is gained, by island [J]
+  std::vector<double> trial_shares_;      // of the step, by island: bounds, then those accepted
   std::vector<SimdBatch> step_;
 
   // Buffers, so that a step allocates nothing. Those of move_obstacles() and update_friction(), by
@@ -174,6 +184,13 @@ class NewtonSolver {
   std::vector<int> rounds_waited_;                   // by island: for which obstacles have waited
   std::vector<EnergySum> energies_before_;
   std::vector<double> friction_shares_;
+
+  // Those of find_gains() and take_back_gains(), by island:
+  std::vector<double> kinetic_;
+  std::vector<double> excess_;
+  std::vector<double> gains_;
+  std::vector<bool> is_gaining_;
+  std::vector<std::uint32_t> midpoint_contacts_;
 
   // Those of correct_short_steps(), by island and by pack:
   std::vector<bool> is_short_;

@@ -31,13 +31,21 @@ void NewtonSolver::find_free_islands(const Problem& problem) {
   const auto touches = [this](std::uint32_t rod) {
     states_[scratch_->islands[rod]].is_free = false;
   };
+  const auto binds = [this](std::uint32_t rod) {
+    IslandState& state = states_[scratch_->islands[rod]];
+    state.is_free = false;
+    state.is_bound = true;
+  };
   if (problem.contacts != nullptr) {
     problem.contacts->for_each_rod(touches);
+    for (const ObstacleContact& contact : problem.contacts->obstacle_contacts) {
+      binds(contact.rod);
+    }
   }
   for (const std::uint32_t rod : members_) {
     if (std::any_of(problem.effects.begin(), problem.effects.end(),
                     [rod](const auto& effect) { return effect->holds(rod); })) {
-      touches(rod);
+      binds(rod);
     }
   }
 }
@@ -57,7 +65,8 @@ void NewtonSolver::check_convergence(Rods& rods, const Problem& problem, std::ui
     const bool is_exact = iteration > 0 && states_[i].is_free &&
                           reports_[i].residual < slow_convergence * states_[i].residual_before;
     const double part = share < 1.0 ? 0.5 * share : is_exact ? free_tolerance : 1.0;
-    return states_[i].is_active && reports_[i].residual <= part * allowed;
+    return states_[i].is_active && !states_[i].has_new_gain &&
+           reports_[i].residual <= part * allowed;
   };
   bool has_friction_of_before = false;
   for (std::size_t i = 0; i < states_.size(); ++i) {
@@ -72,6 +81,7 @@ void NewtonSolver::check_convergence(Rods& rods, const Problem& problem, std::ui
   for (std::size_t i = 0; i < states_.size(); ++i) {
     states_[i].is_converged = is_near(i);
     states_[i].residual_before = reports_[i].residual;
+    states_[i].has_new_gain = false;
   }
   if (update_multipliers(rods, problem)) {
     for (PackStep& pack : packs_) {

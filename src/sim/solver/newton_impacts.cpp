@@ -191,21 +191,31 @@ void NewtonSolver::find_stored_energies(const Problem& problem, std::vector<doub
 }
 
 /// Kinetic energy of the rods at their velocities, by island [J].
-std::vector<double> NewtonSolver::kinetic_energies(const Rods& rods) const {
-  std::vector<double> energies(states_.size(), 0.0);
+void NewtonSolver::find_kinetic_energies(const Rods& rods, std::vector<double>& energies) const {
+  energies.assign(states_.size(), 0.0);
   for (const std::uint32_t rod : members_) {
     add_kinetic_energy(rods, rod, energies[scratch_->islands[rod]]);
   }
-  return energies;
+}
+
+/// Finds the kinetic energy with which the solve gains none where the rods are, by island: all that
+/// there was and is not stored, and what moving obstacles have done.
+void NewtonSolver::find_max_kinetic() {
+  max_kinetic_.clear();
+  for (std::size_t i = 0; i < states_.size(); ++i) {
+    max_kinetic_.push_back(kinetic_of_start_[i] + stored_of_start_[i] - stored_[i] +
+                           obstacle_work_[i]);
+  }
 }
 
 /// Changes velocities and spins by the impacts of each island, which give back no more energy than
-/// the solve has taken, and takes back what contacts return of impacts before.
+/// the solve and obstacles have taken from it, and takes back what contacts return of impacts
+/// before.
 /// @returns the work of moving obstacles by them [J]
 double NewtonSolver::resolve_impacts(Rods& rods, const Problem& problem,
                                      const std::vector<Impact>& impacts) {
   const double coefficient = problem.friction != nullptr ? problem.friction->coefficient() : 0.0;
-  const std::vector<double> kinetic = kinetic_energies(rods);
+  find_kinetic_energies(rods, kinetic_);
   double work = 0.0;
   for (std::uint32_t island = 0; island < states_.size(); ++island) {
     std::vector<Impact> own;
@@ -228,7 +238,7 @@ double NewtonSolver::resolve_impacts(Rods& rods, const Problem& problem,
       resolve(rods, coefficient, own);
     }
     const double share = allowed_share(
-        before, rods, std::max(0.0, max_kinetic_[island] - kinetic[island]), work_of(own));
+        before, rods, std::max(0.0, max_kinetic_[island] - kinetic_[island]), work_of(own));
     for (const StruckNode& each : before) {
       Vector3d& velocity = rods.velocities[each.node];
       velocity = each.velocity + share * (velocity - each.velocity);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "src/sim/solver/newton.hpp"
 
@@ -204,18 +203,12 @@ bool NewtonSolver::move_with_obstacles(Rods& rods, const Problem& problem) {
   return can_move;
 }
 
-/// The work of moving obstacles in the solve [J]: that is energy which impacts may give back.
-double NewtonSolver::obstacle_work(const Rods& rods, const Problem& problem) {
-  obstacle_work_.clear();
-  if (problem.contacts == nullptr || problem.contacts->moved_shapes() == nullptr) {
-    return 0.0;
-  }
+/// Finds the work of moving obstacles in the solve, by island [J].
+void NewtonSolver::find_obstacle_work(const Rods& rods, const Problem& problem) {
   obstacle_work_.assign(states_.size(), 0.0);
-  problem.contacts->add_obstacle_work(rods, scratch_->islands, obstacle_work_);
-  for (std::size_t i = 0; i < obstacle_work_.size(); ++i) {
-    max_kinetic_[i] += obstacle_work_[i];
+  if (problem.contacts != nullptr && problem.contacts->moved_shapes() != nullptr) {
+    problem.contacts->add_obstacle_work(rods, scratch_->islands, obstacle_work_);
   }
-  return std::accumulate(obstacle_work_.begin(), obstacle_work_.end(), 0.0);
 }
 
 }  // namespace fiber

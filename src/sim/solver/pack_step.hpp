@@ -162,6 +162,17 @@ class PackStep {
     }
   }
 
+  /// Kinetic energies, if the step ended where the rods are now, by lane [J].
+  SimdBatch kinetic_energies() const {
+    SimdBatch energies = weighted_squares({system_.size(), pack_.used}, inertias_.data(),
+                                          pack_.positions.data(), step_start_.data());
+    couplings_.add_squares(pack_, step_start_, energies);
+    for (std::size_t lane = 0; lane < lane_count; ++lane) {
+      energies[lane] *= 0.5 / (step_length_ * step_length_);
+    }
+    return energies;
+  }
+
   const EnergySum& energy(std::size_t lane) const { return energies_[lane]; }
 
   /// The conservative part of a rod's energy, without inertia [J].

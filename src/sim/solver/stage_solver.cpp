@@ -315,6 +315,7 @@ void StageSolver::add_to(StepReport& report) const {
     for (const IslandReport& island : group.reports) {
       iterations = std::max(iterations, island.iterations);
       report.impacts += island.impacts;
+      report.midpoint_contacts += island.midpoint_contacts;
       report.unbalanced += island.residual > options_.residual ? 1 : 0;
       if (!(island.residual <= report.worst.residual)) {
         report.worst = island;
