@@ -243,8 +243,7 @@ TEST_P(Residual, IsWhatIsLeftOfEachNodesEquation) {
         anchors = FrictionAnchors();
         continue;
       }
-      // Impacts change velocities beyond what the equations say, and normals of the middle of a
-      // step are none of its end.
+      // Impacts change velocities beyond what the equations say, and midpoint normals the forces.
       if (report.impacts > 0 || report.midpoint_contacts > 0) {
         continue;
       }
