@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "test/sim/extra_scene.hpp"
 #include "test/sim/random_rods.hpp"
@@ -50,17 +51,20 @@ Rods falling() {
   return rods;
 }
 
-class EnergyOf : public testing::TestWithParam<Extra> {};
+/// What there is beside rods alike that fall, and the coefficient of friction.
+class EnergyOf : public testing::TestWithParam<std::tuple<Extra, double>> {};
 
 /// But for the work of a table that moves, as the force on it tells.
 TEST_P(EnergyOf, ImplicitEulerGainsNoneInAnyStepWithContacts) {
-  const ExtraScene extra(falling(), GetParam(), 0.19);
+  const auto [kind, friction] = GetParam();
+  const ExtraScene extra(falling(), kind, 0.19);
   const double scale = weight_times_length_of(extra.rods());
   StepperOptions options;
   options.threads = 1;
   Effects all = elastic(standard_gravity);
   extra.add_effects(all);
-  Stepper stepper(extra.rods(), std::move(all), options, extra.contacts(0.0, 0.3), extra.joints());
+  Stepper stepper(extra.rods(), std::move(all), options, extra.contacts(0.0, friction),
+                  extra.joints());
   constexpr double step = 1.0 / 240.0;
   stepper.step(step);
   std::size_t contacts = 0;
@@ -82,18 +86,23 @@ TEST_P(EnergyOf, ImplicitEulerGainsNoneInAnyStepWithContacts) {
     contacts = std::max(contacts, forces.contacts.size());
   }
   // What pulls at rods that are wedged has a step end by its iterations: it gains none either.
-  EXPECT_LE(unbalanced, GetParam() == Extra::LOADS ? 1 : 0);
+  EXPECT_LE(unbalanced, kind == Extra::LOADS ? 1 : 0);
   EXPECT_GT(contacts, 20U);
   const double table = extra.table_at(stepper.time()).translation().z();
   EXPECT_LT(mean_height_of(stepper.rods()) - table, 0.5 * mean_height_of(extra.rods()))
       << "they have fallen";
-  EXPECT_EQ(all_work > 0.0, GetParam() == Extra::LIFT);
+  EXPECT_EQ(all_work > 0.0, kind == Extra::LIFT);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, EnergyOf,
-                         testing::Values(Extra::NONE, Extra::LOADS, Extra::SECTIONS, Extra::BALL,
-                                         Extra::WELD, Extra::CLOSED, Extra::LIFT),
-                         [](const auto& extra) { return name_of(extra.param); });
+                         testing::Combine(testing::Values(Extra::NONE, Extra::LOADS,
+                                                          Extra::SECTIONS, Extra::BALL, Extra::WELD,
+                                                          Extra::CLOSED, Extra::LIFT),
+                                          testing::Values(0.0, 0.3)),
+                         [](const auto& scene) {
+                           return name_of(std::get<0>(scene.param)) +
+                                  (std::get<1>(scene.param) > 0.0 ? "_friction" : "");
+                         });
 
 /// A soft cable that swings from one end.
 TEST(Energy, BDF2LosesAtMostOnePercentOfAPendulumIn60Seconds) {
