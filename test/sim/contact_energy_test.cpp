@@ -102,9 +102,9 @@ TEST_P(ContactEnergy, ImplicitEulerGainsNoneWhereNormalsTurn) {
   EXPECT_GE(balanced, 0.9 * steps);
   // Elsewhere few steps would gain any, or none.
   if (!sliding.friction && sliding.steps_per_second == (sliding.has_post ? 960.0 : 240.0)) {
-    EXPECT_GT(midpoint_contacts, 0U);
+    expect_enough(midpoint_contacts, 1U);
   }
-  EXPECT_GT(in_contact, steps / (sliding.has_post ? 20 : 3));
+  expect_enough(in_contact, steps / (sliding.has_post ? 20 : 3));
 }
 
 std::vector<Sliding> all_kinds() {
