@@ -110,7 +110,7 @@ void ContactSet::find_terms(const Rods& rods, std::size_t contact, DistanceTerms
     });
     return;
   }
-  const FrictionPoint& point = frictions_[contact - distance_count()];
+  const ResistedPoint& point = resisted_point(contact);
   const Vector3d slip = point.slip(rods);
   const double length = slip.norm();
   const Friction::Law law = point.law(length, stick_length_);

@@ -15,8 +15,9 @@ using Eigen::Vector3d;
 
 namespace {
 
-// Contacts are numbered: first those with obstacles, then those of pairs, then those with friction.
-// Threads take them in chunks, which do not depend on the number of threads.
+// Contacts are numbered: first those with obstacles, then those of pairs, then those with friction,
+// then those with midpoint normals. Threads take them in chunks, which do not depend on the number
+// of threads.
 constexpr std::size_t chunk = 64;
 
 std::size_t chunk_count(std::size_t count) { return (count + chunk - 1) / chunk; }
@@ -37,6 +38,7 @@ void ContactSet::clear() {
   obstacle_edges.clear();
   was_near_.clear();
   frictions_.clear();
+  midpoint_forces_.clear();
   impacts_.clear();
   has_motion_ = false;
   for (ContactDerivatives& derivatives : terms_) {
@@ -47,6 +49,7 @@ void ContactSet::clear() {
 void ContactSet::begin(const Rods& rods, const Friction* friction, const FrictionOrigins& origins,
                        double step) {
   frictions_.clear();
+  midpoint_forces_.clear();
   friction_ = friction;
   origins_ = origins;
   step_ = step;
@@ -146,13 +149,12 @@ void ContactSet::update_friction(const Rods& rods, const std::vector<std::uint32
   }
   const auto share_of = [&](std::uint32_t rod) { return shares[islands[rod]]; };
   max_forces_before_.assign(distance_count(), 0.0);
-  for (const FrictionPoint& point : frictions_) {
+  for (const ResistedPoint& point : frictions_) {
     max_forces_before_[point.contact] += point.max_force;
   }
   frictions_.erase(std::remove_if(frictions_.begin(), frictions_.end(),
-                                  [&](const FrictionPoint& point) {
-                                    return point.viscosity == 0.0 &&
-                                           share_of(point.points.rod_a) > 0.0;
+                                  [&](const ResistedPoint& point) {
+                                    return share_of(point.points.rod_a) > 0.0;
                                   }),
                    frictions_.end());
   add_friction(rods, share_of);
@@ -160,13 +162,11 @@ void ContactSet::update_friction(const Rods& rods, const std::vector<std::uint32
 }
 
 void ContactSet::add_anchors(const Rods& rods, FrictionAnchors& anchors) const {
-  for (const FrictionPoint& point : frictions_) {
-    if (point.viscosity == 0.0) {
-      const Vector3d slip = point.slip(rods);
-      const double length = slip.norm();
-      anchors.add({point.points, point.normal, slip / std::max(length, stick_length_),
-                   point.stored_energy(length, stick_length_)});
-    }
+  for (const ResistedPoint& point : frictions_) {
+    const Vector3d slip = point.slip(rods);
+    const double length = slip.norm();
+    anchors.add({point.points, point.normal, slip / std::max(length, stick_length_),
+                 point.stored_energy(length, stick_length_)});
   }
 }
 
@@ -208,7 +208,7 @@ void ContactSet::update_distances(const Rods& rods) {
   });
 }
 
-Vector3d ContactSet::FrictionPoint::slip(const Rods& rods) const {
+Vector3d ContactSet::ResistedPoint::slip(const Rods& rods) const {
   Vector3d moved = point_at(rods.positions, points.edge_a, points.s) - reference;
   if (points.is_of_rods()) {
     moved -= point_at(rods.positions, points.edge_b, points.t);
@@ -219,12 +219,12 @@ Vector3d ContactSet::FrictionPoint::slip(const Rods& rods) const {
   return moved - normal * normal.dot(moved);
 }
 
-Vector3d ContactSet::FrictionPoint::force(const Rods& rods, double stick_length) const {
+Vector3d ContactSet::ResistedPoint::force(const Rods& rods, double stick_length) const {
   const Vector3d slipped = slip(rods);
   return -law(slipped.norm(), stick_length).resistance * slipped;
 }
 
-Friction::Law ContactSet::FrictionPoint::law(double slip, double stick_length) const {
+Friction::Law ContactSet::ResistedPoint::law(double slip, double stick_length) const {
   if (viscosity > 0.0) {
     return {0.5 * viscosity * slip * slip, viscosity, viscosity};
   }
@@ -232,15 +232,22 @@ Friction::Law ContactSet::FrictionPoint::law(double slip, double stick_length) c
   return {max_force * unit.energy, max_force * unit.resistance, max_force * unit.curvature};
 }
 
+/// Of friction, or with a midpoint normal.
+const ContactSet::ResistedPoint& ContactSet::resisted_point(std::size_t contact) const {
+  contact -= distance_count();
+  return contact < frictions_.size() ? frictions_[contact]
+                                     : midpoint_forces_[contact - frictions_.size()];
+}
+
 double ContactSet::energy_of(const Rods& rods, std::size_t contact) const {
   if (contact < obstacle_contacts.size()) {
     return obstacle_contact(obstacle_contacts[contact], obstacle_distances_[contact], nullptr);
   }
-  contact -= obstacle_contacts.size();
-  if (contact < pairs.size()) {
-    return edge_contact(pairs[contact], rods.positions, distances_[contact], nullptr);
+  if (contact < distance_count()) {
+    const std::size_t pair = contact - obstacle_contacts.size();
+    return edge_contact(pairs[pair], rods.positions, distances_[pair], nullptr);
   }
-  const FrictionPoint& point = frictions_[contact - pairs.size()];
+  const ResistedPoint& point = resisted_point(contact);
   return point.law(point.slip(rods).norm(), stick_length_).energy;
 }
 
@@ -271,7 +278,7 @@ std::pair<std::uint32_t, std::uint32_t> ContactSet::rods_of(std::size_t contact)
     const EdgePair& pair = pairs[contact - obstacle_contacts.size()];
     return {pair.rod_a, pair.rod_b};
   }
-  const ContactPoints& points = frictions_[contact - distance_count()].points;
+  const ContactPoints& points = resisted_point(contact).points;
   return {points.rod_a, points.is_of_rods() ? points.rod_b : points.rod_a};
 }
 

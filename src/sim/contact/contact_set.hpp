@@ -218,14 +218,14 @@ class ContactSet {
  private:
   /// A contact with a normal force, and what resists its slip: friction, or what turns that force
   /// to the normal in the middle of the way.
-  struct FrictionPoint {
+  struct ResistedPoint {
     std::size_t contact;
     ContactPoints points;
     Eigen::Vector3d normal;               // zero: it resists all motion, not slip alone
     double max_force;                     // of friction [N]
     Eigen::Vector3d reference;            // from the point of b to that of a, where slip is nil [m]
     std::optional<SurfaceLevers> levers;  // from the axes to where it acts; none: on the axes
-    double viscosity = 0.0;               // 0: it is friction [N/m]
+    double viscosity = 0.0;               // of what is no friction [N/m]
 
     Eigen::Vector3d slip(const Rods& rods) const;
 
@@ -264,12 +264,16 @@ class ContactSet {
                   ContactDerivatives& derivatives) const;
   std::pair<std::uint32_t, std::uint32_t> rods_of(std::size_t contact) const;
   std::size_t distance_count() const { return obstacle_contacts.size() + pairs.size(); }
-  std::size_t contact_count() const { return distance_count() + frictions_.size(); }
+  std::size_t contact_count() const {
+    return distance_count() + frictions_.size() + midpoint_forces_.size();
+  }
+  const ResistedPoint& resisted_point(std::size_t contact) const;
 
   std::vector<SegmentDistance> distances_;            // by pair
   std::vector<ObstacleDistance> obstacle_distances_;  // by contact
   std::vector<bool> was_near_;                        // when the step began, by contact
-  std::vector<FrictionPoint> frictions_;
+  std::vector<ResistedPoint> frictions_;
+  std::vector<ResistedPoint> midpoint_forces_;  // turn normal forces to the middle of the way
   // What friction of a contact goes on with, by contact, once that has pressed in the step. It
   // stays that one: the points of a contact move while forces are balanced, and with friction that
   // jumps from one anchor to another they never are.
@@ -285,7 +289,7 @@ class ContactSet {
   double stick_length_ = 0.0;  // [m]
   ContactTerms terms_;
   std::vector<double> energies_;                      // by contact [J]
-  std::vector<std::vector<FrictionPoint>> by_chunk_;  // buffer of add_friction()
+  std::vector<std::vector<ResistedPoint>> by_chunk_;  // buffer of add_friction()
 };
 
 template <class Function>

@@ -55,14 +55,19 @@ void ContactSet::add_forces(const Rods& rods, std::vector<RodForces::ContactForc
     force.normal_force += impact.pressure / step_ * impact.normal;
     force.friction_force += impact.friction / step_;
   }
-  for (const FrictionPoint& point : frictions_) {
+  const auto resist = [&](const ResistedPoint& point,
+                          Vector3d RodForces::ContactForce::*component) {
     RodForces::ContactForce& force = force_of(point.points);
     if (force.point.isZero(0.0)) {
       force.point = point_at(rods.positions, point.points.edge_a, point.points.s);
     }
-    // What takes back excess work turns the normal force to where it is along the way.
-    (point.viscosity > 0.0 ? force.normal_force : force.friction_force) +=
-        point.force(rods, stick_length_);
+    force.*component += point.force(rods, stick_length_);
+  };
+  for (const ResistedPoint& point : frictions_) {
+    resist(point, &RodForces::ContactForce::friction_force);
+  }
+  for (const ResistedPoint& point : midpoint_forces_) {
+    resist(point, &RodForces::ContactForce::normal_force);
   }
 }
 

@@ -100,13 +100,14 @@ void ContactSet::for_each_obstacle_force(const Rods& rods, const Function& funct
       });
     }
   }
-  for (const FrictionPoint& friction : frictions_) {
-    if (const MovedShape* const shape = moved_->of_object(friction.points)) {
-      Vector3d point = point_at(rods.positions, friction.points.edge_a, friction.points.s);
-      if (friction.levers) {
-        point += friction.levers->front().arm;
+  for (std::size_t i = distance_count(); i < contact_count(); ++i) {
+    const ResistedPoint& resisted = resisted_point(i);
+    if (const MovedShape* const shape = moved_->of_object(resisted.points)) {
+      Vector3d point = point_at(rods.positions, resisted.points.edge_a, resisted.points.s);
+      if (resisted.levers) {
+        point += resisted.levers->front().arm;
       }
-      function(friction.points, *shape, point, friction.force(rods, stick_length_));
+      function(resisted.points, *shape, point, resisted.force(rods, stick_length_));
     }
   }
 }

@@ -82,10 +82,8 @@ std::vector<Impact> ContactSet::find_impacts(const Rods& rods,
   }
   is_any_of_impact = false;
   std::vector<Vector3d> frictions(distance_count(), Vector3d::Zero());  // on a [N]
-  for (const FrictionPoint& point : frictions_) {
-    if (point.viscosity == 0.0) {
-      frictions[point.contact] += point.force(rods, stick_length_);
-    }
+  for (const ResistedPoint& point : frictions_) {
+    frictions[point.contact] += point.force(rods, stick_length_);
   }
   DistanceTerms buffer;
   for (std::size_t i = 0; i < distance_count(); ++i) {

@@ -63,9 +63,9 @@ void ContactSet::add_excess_work(const Rods& rods, const std::vector<std::uint32
 
 void ContactSet::add_slip_energies(const Rods& rods, const std::vector<std::uint32_t>& islands,
                                    std::vector<double>& energies) const {
-  for (const FrictionPoint& point : frictions_) {
+  for (const ResistedPoint& point : frictions_) {
     double& energy = energies[islands[point.points.rod_a]];
-    if (energy > 0.0 && point.viscosity == 0.0) {
+    if (energy > 0.0) {
       energy += point.stored_energy(point.slip(rods).norm(), stick_length_);
     }
   }
@@ -74,19 +74,18 @@ void ContactSet::add_slip_energies(const Rods& rods, const std::vector<std::uint
 void ContactSet::use_midpoint_normals(const Rods& rods, const std::vector<std::uint32_t>& islands,
                                       const std::vector<bool>& which,
                                       std::vector<std::uint32_t>& count) {
-  frictions_.erase(std::remove_if(frictions_.begin(), frictions_.end(),
-                                  [&](const FrictionPoint& point) {
-                                    return point.viscosity > 0.0 &&
-                                           which[islands[point.points.rod_a]];
-                                  }),
-                   frictions_.end());
+  midpoint_forces_.erase(std::remove_if(midpoint_forces_.begin(), midpoint_forces_.end(),
+                                        [&](const ResistedPoint& point) {
+                                          return which[islands[point.points.rod_a]];
+                                        }),
+                         midpoint_forces_.end());
   for_each_excess_work(
       rods, [&](std::size_t contact, const ContactPoints& points, const ExcessWork& excess) {
         const std::uint32_t island = islands[points.rod_a];
         if (which[island] && !excess.leads_round) {
           const Vector3d now = difference_of_points(rods.positions, points);
-          frictions_.push_back({contact, points, Vector3d::Zero(), 0.0, now - excess.moved,
-                                std::nullopt, excess.work / excess.moved.squaredNorm()});
+          midpoint_forces_.push_back({contact, points, Vector3d::Zero(), 0.0, now - excess.moved,
+                                      std::nullopt, excess.work / excess.moved.squaredNorm()});
           ++count[island];
         }
       });

@@ -98,10 +98,11 @@ std::optional<double> NewtonSolver::solve(Rods& rods, const Problem& problem) {
                                            [](const auto& state) { return state.is_active; });
     const bool may_go_on = iteration < problem.options.max_iterations;
     if (!is_any_active || !may_go_on) {
-      if (!find_gains(rods, problem, may_go_on)) {
-        break;
+      find_gains(rods, problem);
+      if (may_go_on && take_back_gains(rods, problem)) {
+        continue;
       }
-      continue;
+      break;
     }
     find_newton_step(problem);
     if (!bound_step(rods, problem)) {
@@ -129,7 +130,7 @@ std::optional<double> NewtonSolver::solve(Rods& rods, const Problem& problem) {
       !bound_.is_within(rods, members_)) {
     return std::nullopt;
   }
-  limit_velocities(rods);
+  limit_velocities(rods, problem);
   double gain = 0.0;
   for (std::size_t i = 0; i < states_.size(); ++i) {
     gain += stored_[i] - stored_of_start_[i] - obstacle_work_[i];

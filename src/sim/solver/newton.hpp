@@ -143,9 +143,9 @@ class NewtonSolver {
   void check_convergence(Rods& rods, const Problem& problem, std::uint32_t iteration);
   bool update_multipliers(Rods& rods, const Problem& problem);
   void update_friction(const Rods& rods, const Problem& problem);
-  bool find_gains(const Rods& rods, const Problem& problem, bool may_go_on);
+  void find_gains(const Rods& rods, const Problem& problem);
   bool take_back_gains(const Rods& rods, const Problem& problem);
-  void limit_velocities(Rods& rods) const;
+  void limit_velocities(Rods& rods, const Problem& problem);
   void find_residuals();
   void find_newton_step(const Problem& problem);
   void update_directional_derivatives();

@@ -16,16 +16,14 @@ using Eigen::Vector3d;
 
 /// Finds the energy that contacts have given an island where it is, by island [J]; 0 where it is
 /// little, or where most of it has come from elsewhere.
-/// @param may_go_on with the solve
-/// @returns whether there are islands to go on with, without what they have gained
-bool NewtonSolver::find_gains(const Rods& rods, const Problem& problem, bool may_go_on) {
+void NewtonSolver::find_gains(const Rods& rods, const Problem& problem) {
   constexpr double min_gain = 1e-7;  // of the kinetic energy
   constexpr double main_part = 0.5;  // so much of a gain is of contacts where they make it
   find_stored_energies(problem, stored_);
   find_obstacle_work(rods, problem);
   gains_.assign(states_.size(), 0.0);
   if (problem.contacts == nullptr || !problem.has_start_rates) {
-    return false;
+    return;
   }
   find_max_kinetic();
   kinetic_.assign(states_.size(), 0.0);
@@ -42,19 +40,13 @@ bool NewtonSolver::find_gains(const Rods& rods, const Problem& problem, bool may
     are_gains |= gains_[i] > 0.0;
   }
   if (!are_gains) {
-    return false;
+    return;
   }
   excess_.assign(states_.size(), 0.0);
   problem.contacts->add_excess_work(rods, scratch_->islands, excess_);
   for (std::size_t i = 0; i < states_.size(); ++i) {
     gains_[i] = excess_[i] > main_part * gains_[i] ? std::min(gains_[i], excess_[i]) : 0.0;
   }
-  if (may_go_on && take_back_gains(rods, problem)) {
-    return true;
-  }
-  // What friction stores is energy as well, if little.
-  problem.contacts->add_slip_energies(rods, scratch_->islands, gains_);
-  return false;
 }
 
 /// Has the contacts of islands that have gained energy press along their normals in the middle of
@@ -89,10 +81,12 @@ bool NewtonSolver::take_back_gains(const Rods& rods, const Problem& problem) {
 /// Takes from the velocities of islands what they have gained all the same: in steps so long that
 /// rods go round each other, no force along a normal leads to where they are without that. Where
 /// nothing holds an island, momentum stays.
-void NewtonSolver::limit_velocities(Rods& rods) const {
+void NewtonSolver::limit_velocities(Rods& rods, const Problem& problem) {
   if (std::all_of(gains_.begin(), gains_.end(), [](double gain) { return gain == 0.0; })) {
     return;
   }
+  // What friction stores is energy as well, if little.
+  problem.contacts->add_slip_energies(rods, scratch_->islands, gains_);
   std::vector<double> masses(states_.size(), 0.0);
   std::vector<Vector3d> momenta(states_.size(), Vector3d::Zero());
   for (const std::uint32_t rod : members_) {

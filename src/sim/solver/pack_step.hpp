@@ -143,12 +143,10 @@ class PackStep {
 
   /// Kinetic and potential energy of the incremental potential where the rods are now [J].
   void evaluate_energies(const Effects& effects) {
-    SimdBatch kinetic = weighted_squares({system_.size(), pack_.used}, inertias_.data(),
-                                         pack_.positions.data(), predicted_.data());
-    couplings_.add_squares(pack_, predicted_, kinetic);
+    const SimdBatch kinetic = kinetic_energies_from(predicted_);
     for (std::size_t lane = 0; lane < lane_count; ++lane) {
       energies_[lane] = EnergySum{};
-      energies_[lane].add(0.5 * kinetic[lane] / (step_length_ * step_length_));
+      energies_[lane].add(kinetic[lane]);
     }
     stored_ = SimdBatch{};
     for (std::size_t e = 0; e < effects.size(); ++e) {
@@ -163,15 +161,7 @@ class PackStep {
   }
 
   /// Kinetic energies, if the step ended where the rods are now, by lane [J].
-  SimdBatch kinetic_energies() const {
-    SimdBatch energies = weighted_squares({system_.size(), pack_.used}, inertias_.data(),
-                                          pack_.positions.data(), step_start_.data());
-    couplings_.add_squares(pack_, step_start_, energies);
-    for (std::size_t lane = 0; lane < lane_count; ++lane) {
-      energies[lane] *= 0.5 / (step_length_ * step_length_);
-    }
-    return energies;
-  }
+  SimdBatch kinetic_energies() const { return kinetic_energies_from(step_start_); }
 
   const EnergySum& energy(std::size_t lane) const { return energies_[lane]; }
 
@@ -249,6 +239,18 @@ class PackStep {
   }
 
  private:
+  /// Kinetic energies of the way from some positions to where the rods are, in the time of the
+  /// step, by lane [J].
+  SimdBatch kinetic_energies_from(const std::vector<SimdBatch>& positions) const {
+    SimdBatch energies = weighted_squares({system_.size(), pack_.used}, inertias_.data(),
+                                          pack_.positions.data(), positions.data());
+    couplings_.add_squares(pack_, positions, energies);
+    for (std::size_t lane = 0; lane < lane_count; ++lane) {
+      energies[lane] = 0.5 * energies[lane] / (step_length_ * step_length_);
+    }
+    return energies;
+  }
+
   /// Fills a step from where the rods are by value(unknown, lane), and the zeros after it.
   template <class Value>
   void fill(SimdBatch* step, const Value& value) {
