@@ -14,7 +14,7 @@
 
 #include "fiber_proximity/mpi/distributed_engine.hpp"
 #include "fiber_proximity/query/engine.hpp"
-#include "fiber_proximity/scenes/large_scene.hpp"
+#include "fiber_proximity/scenes/scene.hpp"
 #include "src/mpi/communicator.hpp"
 #include "src/tools/mpi_tool.hpp"
 

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "fiber_proximity/scenes/large_scene.hpp"
+#include "fiber_proximity/scenes/scene.hpp"
 #include "src/mpi/communicator.hpp"
 #include "src/mpi/local_fibers.hpp"
 #include "src/mpi/owned_fibers.hpp"

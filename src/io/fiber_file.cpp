@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "fiber_proximity/io/fiber_formats.hpp"
+#include "src/io/fiber_formats.hpp"
 #include "src/io/file_format.hpp"
 #include "src/io/input_file.hpp"
 #include "src/io/one_frame.hpp"

@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "fiber_proximity/io/fiber_formats.hpp"
 #include "src/io/bytes.hpp"
+#include "src/io/fiber_formats.hpp"
 #include "src/io/npy_array.hpp"
 #include "src/io/number.hpp"
 #include "src/io/one_frame.hpp"

@@ -7,7 +7,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "fiber_proximity/io/fiber_formats.hpp"
+#include "src/io/fiber_formats.hpp"
 #include "src/io/number.hpp"
 
 namespace fiber {

@@ -6,7 +6,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "fiber_proximity/io/fiber_formats.hpp"
+#include "src/io/fiber_formats.hpp"
 #include "src/io/input_file.hpp"
 #include "src/io/number.hpp"
 #include "src/io/number_array.hpp"

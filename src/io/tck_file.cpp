@@ -4,9 +4,9 @@
 #include <optional>
 #include <utility>
 
-#include "fiber_proximity/io/fiber_formats.hpp"
 #include "src/io/bytes.hpp"
 #include "src/io/csv_row.hpp"
+#include "src/io/fiber_formats.hpp"
 #include "src/io/millimetres.hpp"
 #include "src/io/number.hpp"
 #include "src/io/one_frame.hpp"

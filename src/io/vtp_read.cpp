@@ -7,8 +7,8 @@
 #include <limits>
 #include <utility>
 
-#include "fiber_proximity/io/fiber_formats.hpp"
 #include "src/io/bytes.hpp"
+#include "src/io/fiber_formats.hpp"
 #include "src/io/number.hpp"
 #include "src/io/strands.hpp"
 #include "src/io/vtk_blocks.hpp"

@@ -1,9 +1,8 @@
-#include "fiber_proximity/scenes/large_scene.hpp"
-
 #include <stdexcept>
 #include <string>
 #include <utility>
 
+#include "fiber_proximity/scenes/scene.hpp"
 #include "src/scenes/large_scenes.hpp"
 #include "src/text/join.hpp"
 #include "src/text/quote.hpp"

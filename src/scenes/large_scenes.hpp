@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "fiber_proximity/scenes/large_scene.hpp"
+#include "fiber_proximity/scenes/scene.hpp"
 
 namespace fiber {
 

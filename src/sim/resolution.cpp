@@ -1,4 +1,4 @@
-#include "fiber_proximity/sim/resolution.hpp"
+#include "src/sim/resolution.hpp"
 
 #include <algorithm>
 #include <cmath>

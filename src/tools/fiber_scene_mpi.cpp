@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "fiber_proximity/mpi/distributed_files.hpp"
-#include "fiber_proximity/scenes/large_scene.hpp"
+#include "fiber_proximity/scenes/scene.hpp"
 #include "src/io/number.hpp"
 #include "src/mpi/communicator.hpp"
 #include "src/text/quote.hpp"

@@ -1,5 +1,5 @@
 // Archives of numpy's arrays; what is read is written and read again as the same.
-#include "fiber_proximity/io/fiber_formats.hpp"
+#include "src/io/fiber_formats.hpp"
 #include "test/fuzz/format.hpp"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -1,5 +1,5 @@
 // Poly data in VTK's XML; what is read is written and read again as the same.
-#include "fiber_proximity/io/fiber_formats.hpp"
+#include "src/io/fiber_formats.hpp"
 #include "test/fuzz/format.hpp"
 
 namespace {

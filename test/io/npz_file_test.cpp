@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "fiber_proximity/io/fiber_formats.hpp"
+#include "src/io/fiber_formats.hpp"
 #include "test/io/format.hpp"
 
 namespace fiber::test {

@@ -1,5 +1,5 @@
 // .swc files: trees whose branches are joints.
-#include "fiber_proximity/io/fiber_formats.hpp"
+#include "src/io/fiber_formats.hpp"
 #include "test/io/format.hpp"
 
 namespace fiber::test {

@@ -1,7 +1,7 @@
 // .trk files, written byte by byte as TrackVis's documentation tells.
 #include <limits>
 
-#include "fiber_proximity/io/fiber_formats.hpp"
+#include "src/io/fiber_formats.hpp"
 #include "test/io/format.hpp"
 
 namespace fiber::test {

@@ -1,5 +1,5 @@
 // .vtk files, written byte by byte as VTK's documentation tells.
-#include "fiber_proximity/io/fiber_formats.hpp"
+#include "src/io/fiber_formats.hpp"
 #include "test/io/vtk_samples.hpp"
 
 namespace fiber::test {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "fiber_proximity/io/fiber_formats.hpp"
+#include "src/io/fiber_formats.hpp"
 #include "test/io/vtk_samples.hpp"
 
 namespace fiber::test {

@@ -1,5 +1,3 @@
-#include "fiber_proximity/scenes/large_scene.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,6 +7,7 @@
 #include <vector>
 
 #include "fiber_proximity/query/engine.hpp"
+#include "fiber_proximity/scenes/scene.hpp"
 #include "src/scenes/portable_math.hpp"
 #include "test/support/error_of.hpp"
 #include "test/support/hash.hpp"

@@ -1,5 +1,5 @@
 // The table by which scenes get their segments and steps, against rods of just these.
-#include "fiber_proximity/sim/resolution.hpp"
+#include "src/sim/resolution.hpp"
 
 #include <gtest/gtest.h>
 

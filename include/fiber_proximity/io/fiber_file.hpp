@@ -204,14 +204,15 @@ void write_vtp(std::ostream& stream, const FiberAssembly& fibers);
 // ---- any format: the end of the name decides, in capitals or not. A name of another format that
 // is known, as .json or .npy, is refused; one that means no format is CSV.
 
-/// Reads a fibre file of any format: .csv, .hair, and what fiber_proximity/io/fiber_formats.hpp
-/// tells of. HDF5 is read over ranks only (fiber_proximity/mpi/distributed_files.hpp).
+/// Reads a fibre file of any format: .csv, .hair, .tck, .trk, .vtp, .vtk, .npz or .swc;
+/// docs/library.md tells what is read of each, and in which unit. HDF5 is read over ranks only
+/// (fiber_proximity/mpi/distributed_files.hpp).
 /// @throws FileError
 /// @throws std::invalid_argument for a bad default radius
 FiberFile read_fibers(const std::string& path, const ReadOptions& options = {});
 
-/// Writes a fibre file of any format frame by frame: .csv, .pvd, and of one frame .hair and those
-/// that fiber_proximity/io/fiber_formats.hpp writes.
+/// Writes a fibre file of any format frame by frame: .csv, .pvd, and of one frame .hair, .tck,
+/// .trk, .vtp or .npz.
 class FiberWriter {
  public:
   /// @param has_frames whether frames have numbers, which only .csv and .pvd files can hold;

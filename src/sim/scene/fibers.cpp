@@ -5,7 +5,7 @@
 #include <cmath>
 #include <set>
 
-#include "fiber_proximity/sim/resolution.hpp"
+#include "src/sim/resolution.hpp"
 #include "src/sim/scene/cut_curve.hpp"
 #include "src/sim/scene/keys.hpp"
 #include "src/sim/scene/named_nodes.hpp"

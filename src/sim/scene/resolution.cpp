@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "fiber_proximity/sim/resolution.hpp"
+#include "src/sim/resolution.hpp"
 #include "src/sim/scene/keys.hpp"
 #include "src/sim/scene/parts.hpp"
 
