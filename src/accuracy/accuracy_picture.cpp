@@ -202,7 +202,7 @@ class Panel {
     }
     draw_axes();
     draw_lines();
-    // What matters lies above: pale ones first.
+    // Pale ones first: those that matter lie above.
     for (const bool is_pale : {true, false}) {
       for (std::size_t i = 0; i < question_.outcomes.size(); ++i) {
         if (question_.dominated[i] == is_pale) {

@@ -22,7 +22,7 @@ struct QuestionReport {
   const SettingOutcome& taken() const { return outcomes[recommendation.index]; }
 };
 
-/// What was measured of one question, and what to take for it.
+/// Reports the measurements of one question, and which setting to take for it.
 /// @param outcomes of all questions
 /// @param noise      as recommend() has it
 /// @param frame_time likewise

@@ -28,7 +28,7 @@ struct AnswerErrors {
   /// The part of the exact contacts that was reported.
   double found_part() const;
 
-  /// Of distances and decisions [m].
+  /// The largest error of distances and decisions [m].
   double largest() const { return std::max(error, decision_error); }
 };
 

@@ -9,7 +9,7 @@
 namespace fiber {
 namespace {
 
-/// Of LIMITED: so few that on most cables there are more.
+/// LIMITED stops here: most cables have more contacts.
 constexpr std::uint32_t compared_contacts = 10;
 
 AnswerSetting reference_of(const std::string& question, const SettingChoices& choices) {

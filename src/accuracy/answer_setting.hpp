@@ -9,7 +9,7 @@
 
 namespace fiber {
 
-/// What a setting changes beside the reference.
+/// How a setting differs from the reference.
 enum class SettingKind {
   KERNEL,
   TOLERANCE,
@@ -33,7 +33,7 @@ struct AnswerSetting {
   bool is_reference = false;   ///< kernel robust, and nothing else that is chosen here
 };
 
-/// What settings are made of.
+/// The values that settings are combined from.
 struct SettingChoices {
   QueryOptions options;                    ///< margin and neighbours of all
   std::string engine;                      ///< of all but those that are about the engine

@@ -16,7 +16,7 @@ constexpr double no_error = 1e-9;
 /// Another setting is clearly faster below this part of the time.
 constexpr double clearly_faster = 0.95;
 
-/// What is more accurate is taken if it takes at most so many times as long as the fastest.
+/// A more accurate setting is taken if it takes at most so many times as long as the fastest.
 constexpr double nearly_as_fast = 1.03;
 
 /// How many times as long a median may take by chance alone: a standard error of its ratio to the
@@ -52,8 +52,8 @@ bool is_accurate_enough(const SettingOutcome& outcome, double limit) {
          keeps_bounds(outcome) && inaccuracy(outcome) <= limit;
 }
 
-/// Of those that are accurate enough, the reference if it is nearly as fast as the fastest; else of
-/// those that are as well, and clearly faster than the reference, the most accurate.
+/// The reference, if it is accurate enough and nearly as fast as the fastest that is; else the most
+/// accurate of those that are nearly as fast, and clearly faster than the reference.
 const SettingOutcome& preferred(const std::vector<SettingOutcome>& outcomes,
                                 const SettingOutcome& reference, double limit) {
   const SettingOutcome* fastest = &reference;
@@ -130,7 +130,8 @@ std::string time_clause(const SettingOutcome& taken, const SettingOutcome& refer
   return text;
 }
 
-/// What the others would save or cost: of tolerances one that the noise hides, if there is one.
+/// Tells how the others would save or cost time: of tolerances one that the noise hides, if there
+/// is one.
 std::string others_clause(const std::vector<SettingOutcome>& outcomes, const SettingOutcome& taken,
                           std::optional<double> noise) {
   constexpr double any = std::numeric_limits<double>::infinity();

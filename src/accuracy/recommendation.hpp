@@ -9,7 +9,7 @@
 
 namespace fiber {
 
-/// What to take for a question, and why.
+/// The setting to take for a question, and why.
 struct Recommendation {
   std::size_t index = 0;  ///< of the outcome
   std::string sentence;
@@ -24,7 +24,7 @@ bool is_dominated(const SettingOutcome& outcome, const SettingOutcome& other);
 /// Whether any other one dominates each.
 std::vector<bool> dominated(const std::vector<SettingOutcome>& outcomes);
 
-/// What to take of the settings of one question. Accurate enough are answers without a deadline
+/// Chooses among the settings of one question. Accurate enough are answers without a deadline
 /// that miss and invent nothing and whose error and doubt are at most half of the tracker's noise,
 /// which then adds an eighth to the error at most; without noise, those that are off by no more
 /// than a nanometre or than the reference. The reference is taken if it takes at most three percent

@@ -20,7 +20,7 @@ namespace {
 constexpr double max_part_of_budget = 0.02;
 constexpr double max_ratio = 20.0;
 
-/// Of the budget: what goes to the first answers of each setting, which are not measured.
+/// The part of the budget for the first answers of each setting, which are not measured.
 constexpr double warm_up_part = 0.5;
 
 /// [ms] What takes longer is asked about twice before it is measured, the rest three times.
@@ -78,7 +78,7 @@ class Measurement {
   }
 
  private:
-  /// What it finds in one frame may help in the next.
+  /// Whether pairs that it finds in one frame may help in the next.
   static bool keeps_pairs(const AnswerSetting& setting) {
     return setting.engine_options.skin != 0.0;
   }

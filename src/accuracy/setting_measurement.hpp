@@ -13,7 +13,7 @@
 
 namespace fiber {
 
-/// What is left of a budget of time.
+/// The rest of a budget of time.
 class TimeBudget {
  public:
   explicit TimeBudget(double seconds) : seconds_(seconds) {}
@@ -29,7 +29,7 @@ class TimeBudget {
   const double seconds_;
 };
 
-/// What all settings cost and how wrong they are, on the same frames.
+/// The times and errors of all settings, on the same frames.
 struct SettingMeasurement {
   std::vector<SettingOutcome> outcomes;  ///< as the settings, without those left out
   std::size_t frames = 0;                ///< measured

@@ -7,7 +7,7 @@
 
 namespace fiber {
 
-/// What a setting has cost and how wrong it was, over the measured frames.
+/// The times and errors of a setting, over the measured frames.
 struct SettingOutcome {
   AnswerSetting setting;
   std::size_t answers = 0;  ///< measured
@@ -26,7 +26,7 @@ struct SettingOutcome {
   double invented_percent = 0.0;  ///< of those reported
   double complete_percent = 100.0;
 
-  /// Of the answers those whose bounds enclose the truth; none where none are stated.
+  /// The share of answers whose bounds enclose the truth; none where none are stated.
   std::optional<double> bounds_kept_percent;
 };
 

@@ -106,7 +106,7 @@ class CudaExecutor {
     bool has_run_ = false;
   };
 
-  /// What the GPU has been given.
+  /// A point in the work that the GPU has been given.
   class Mark {
    public:
     Mark() { check(cudaEventCreateWithFlags(&event_, cudaEventDisableTiming)); }
@@ -264,7 +264,7 @@ class CudaExecutor {
     check(call(memory_.data(), bytes));
   }
 
-  /// What is in it comes one after the other.
+  /// Work that the GPU does one after the other.
   class Stream {
    public:
     Stream() { check(cudaStreamCreateWithFlags(&stream_, cudaStreamNonBlocking)); }
@@ -311,7 +311,7 @@ void require_device() {
 
 }  // namespace
 
-/// What device_module.cpp asks for.
+/// The symbol that device_module.cpp looks for.
 extern "C" FIBER_PROXIMITY_EXPORT Device* fiber_proximity_make_cuda_device() {
   require_device();
   return std::make_unique<DeviceOf<CudaExecutor>>(std::make_shared<CudaExecutor>()).release();

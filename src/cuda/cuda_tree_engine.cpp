@@ -183,7 +183,7 @@ bool CudaTreeEngine::find_all(const Subject& subject, const NarrowPhase& test,
   return true;
 }
 
-/// What the query asks for, from candidates one by one.
+/// Answers the query from candidates, one by one.
 void CudaTreeEngine::collect(const Subject& subject, const QueryOptions& options, Memory& memory,
                              QueryResult& result) const {
   const Deadline deadline(options.deadline);

@@ -47,7 +47,7 @@ class DeviceTree {
   /// @throws std::invalid_argument for coordinates that are not finite or too large
   virtual void update(const HostFibers& fibers) = 0;
 
-  /// The same of points that are on the device already; waits until they are written.
+  /// Updates to points that are on the device already; waits until they are written.
   /// @param fibers all but its coordinates
   /// @param coordinates three per point [m]
   /// @throws std::invalid_argument for a pointer that is not of this device, too

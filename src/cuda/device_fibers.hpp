@@ -23,7 +23,7 @@ void require_candidates(const std::vector<std::uint32_t>& candidates, std::size_
 /// @throws std::invalid_argument for more segments than a tree can have
 void require_tree_size(std::size_t segment_count);
 
-/// What all fibres have but coordinates.
+/// Everything that a device has to know of fibres, but coordinates.
 /// @param radii memory for those of segments, if they have more than one [m]; the result refers to
 /// it
 HostFibers host_fibers(const FiberAssembly& fibers, std::vector<double>& radii);

@@ -9,7 +9,7 @@
 
 namespace fiber {
 
-/// What DeviceProximity knows of its fibres but the coordinates.
+/// The state of a DeviceProximity but the coordinates.
 struct DeviceProximity::Tree {
   std::unique_ptr<DeviceTree> tree;
   std::vector<double> radii;                    // by first point [m]

@@ -11,7 +11,7 @@
 
 namespace fiber {
 
-/// What executors have, whose calls take effect in their order:
+/// The interface of executors, whose calls take effect in their order:
 ///
 /// - Turn, which makes the device that of the calling thread for as long as it lives: all else is
 ///   called within one
@@ -132,7 +132,7 @@ class DeviceTreeOf final : public DeviceTree {
     }
   }
 
-  /// Of the coordinates that are there.
+  /// Builds the tree over the coordinates that are there.
   /// @return how many of them fibres may not have; there is no tree then
   std::uint64_t build(const HostFibers& fibers) {
     if (fibers.radii != nullptr) {

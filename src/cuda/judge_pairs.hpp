@@ -50,7 +50,7 @@ struct NearestPoints {
   }
 };
 
-/// What is known of a pair that may be a contact.
+/// A pair that may be a contact, with its bounds.
 struct JudgedPair {
   double s;
   double t;

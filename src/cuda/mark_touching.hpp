@@ -88,8 +88,8 @@ struct MarkTouching {
     const double larger = radius_a > radius_b ? radius_a : radius_b;
     const double limit =
         1.25 * (judged.gap + radii) + 2.5 * larger - (length_a > length_b ? length_a : length_b);
-    // What rounding may take away, also of coordinates that are much larger than the segments: what
-    // lies this near is left to the host.
+    // Rounding may take away so much, also of coordinates that are much larger than the segments:
+    // pairs this near are left to the host.
     constexpr double rounding = 1e-9;
     constexpr double least = 1e-100;  // squares of what is much shorter are lost
     return limit > least && way < limit - rounding * (way + radii + length_a + length_b);

@@ -5,7 +5,7 @@
 
 #include "src/cuda/candidates.hpp"
 #include "src/cuda/warp.hpp"
-// What a lane does is written for one.
+// The work of a lane is written for one.
 #ifndef FIBER_ONE_LANE
 #define FIBER_ONE_LANE
 #endif

@@ -86,7 +86,7 @@ class HostWarp {
     return __atomic_fetch_add(counter, by, __ATOMIC_RELAXED);
   }
 
-  /// What lanes have written before is read by others after it.
+  /// Others read after it what lanes have written before.
   void sync() const {}
 };
 

@@ -46,7 +46,7 @@ class ShapeBoxes {
  private:
   static constexpr std::size_t fan_out = EightBoxes::count;
 
-  /// What is looked for, and how far it may be by now.
+  /// A search, and how far its result may be by now.
   class Search {
    public:
     Search(const WorldBox& around, double within) : box(around), reach_(within) {}

@@ -11,7 +11,7 @@
 namespace fiber {
 namespace {
 
-// Of the largest coordinate: what single precision rounds to, and some more.
+// In parts of the largest coordinate: what single precision rounds to, and some more.
 constexpr double relative_tolerance = 1e-6;
 
 template <class... Parts>

@@ -152,7 +152,7 @@ class FiberGraph {
   /// A closed fibre needs so many points, each given once.
   static constexpr std::uint32_t min_closed_points = 3;
 
-  /// What is said of a closed fibre that has fewer.
+  /// The message for a closed fibre that has fewer.
   static std::string error_of_closed(std::uint64_t fiber, std::uint64_t point_count);
 
   /// @throws std::invalid_argument for a joint_tolerance below 0 [m]

@@ -1,6 +1,6 @@
 #pragma once
 
-// What is written for lanes of numbers with Highway's functions is compiled once per instruction
+// Code for lanes of numbers, written with Highway's functions, is compiled once per instruction
 // set; or, where FIBER_ONE_LANE is defined before it is included, for one lane that is a plain
 // number, by any compiler: that of CUDA, too. One source, the same operations in the same order:
 // the same bits.

@@ -151,7 +151,7 @@ Vector3d MotionField::mean_around(std::size_t here) const {
   return sum / count;
 }
 
-/// Of each cell the first node, and where the nodes at its corners are from there: bit a of a
+/// Finds the first node of each cell, and where the nodes at its corners are from there: bit a of a
 /// corner's index is that of axis a.
 void MotionField::find_corners() {
   const std::size_t along_y = cells_[0] + 1;
@@ -220,7 +220,7 @@ void MotionField::find_bounds() {
     beyond_drift_ = std::max(beyond_drift_, (displacement - drift_).norm());
     largest = std::max(largest, displacement.norm());
   }
-  // Of a place in a cell, and of the sums of eight terms.
+  // The rounding of a place in a cell, and of the sums of eight terms.
   rounding_ = 64.0 * epsilon * (rate_ * (lower_.norm() + upper_.norm()) + largest);
   beyond_drift_ += rounding_;
 }

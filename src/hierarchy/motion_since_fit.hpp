@@ -5,8 +5,8 @@
 
 namespace fiber {
 
-/// What the gap between two segments was before they moved, at most. Grows with the gap by now, at
-/// least as fast.
+/// Bounds the gap that two segments had before they moved. Grows with the gap by now, at least as
+/// fast.
 class Approach {
  public:
   Approach() = default;

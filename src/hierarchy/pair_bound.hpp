@@ -21,7 +21,7 @@ struct PairBound {
   /// [m] Those whose gap is at most this; less than 0 where only deeper penetration matters.
   float gap = 0.0F;
 
-  /// Of those, the ones of smaller keys: where no pair can be closer, but many are as close.
+  /// Only smaller keys count at that distance: where no pair can be closer, but many are as close.
   std::uint64_t key = no_key;
 };
 

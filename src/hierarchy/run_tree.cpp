@@ -65,7 +65,7 @@ double half_area(const Run& run, std::uint32_t lane) {
   return half_area(lower, upper);
 }
 
-/// The same of one child.
+/// Half of the surface of one child's box.
 double half_area(const BoxBlock& block, std::uint32_t lane) {
   const float lower[3] = {block.lower[0][lane], block.lower[1][lane], block.lower[2][lane]};
   const float upper[3] = {block.upper[0][lane], block.upper[1][lane], block.upper[2][lane]};

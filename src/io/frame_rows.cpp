@@ -130,7 +130,7 @@ bool FrameBuilder::skip_single_points(FrameRows& rows) {
   return skipped > 0;
 }
 
-/// What is closed and joined.
+/// Finds closed and joined fibres.
 /// @param rows brought together
 FiberTopology FrameBuilder::topology_of(const FrameRows& rows, const std::string& file) {
   FiberTopology topology;

@@ -35,7 +35,7 @@ struct PartEnd {
   }
 };
 
-/// What a rank writes.
+/// The fibres that a rank writes.
 struct WrittenFibers {
   const DistributedFibers& fibers;
   const FiberTopology topology;

@@ -26,10 +26,11 @@ constexpr const char* joint_tolerance = "joint_tolerance";
 }  // namespace attribute
 
 constexpr std::int64_t layout_version = 1;
-/// Of files with closed or joined fibres, so that programs that know of none refuse them.
+/// Files with closed or joined fibres have this version, so that programs that know of none refuse
+/// them.
 constexpr std::int64_t layout_version_of_joints = 2;
 
-/// What a frame is, beside its data.
+/// The facts of a frame, beside its data.
 struct FrameFacts {
   std::int64_t number = 0;
   std::int64_t version = layout_version;

@@ -43,14 +43,14 @@ class JoinedFibers {
   ///         closed fibre whose last point is not its first one
   void send_nodes(const Communicator& ranks, const FiberAssembly& parts);
 
-  /// What is joined of the fibres that a rank owns, as DistributedFibers::topology has it.
+  /// Joined points of the fibres that a rank owns, as DistributedFibers::topology has it.
   FiberTopology topology_of(const LocalFibers& own) const;
 
   /// The fibres, as an assembly in the order of their numbers: they are open, and a closed one has
   /// a joint of its two ends.
   const FiberAssembly& fibers() const { return fibers_.fibers(); }
 
-  /// Of fibers().
+  /// The loop test of fibers().
   const LoopTest& loops() const { return loops_; }
 
   /// The places of two segments among fibers(), the first one first by name; none if one is not

@@ -9,7 +9,7 @@
 
 namespace fiber {
 
-/// What a rank has had to do, in any unit.
+/// The load of a rank, in any unit.
 struct RankLoad {
   double cost = 0.0;                                   ///< of all; 0 if it is not known
   std::function<std::vector<double>()> costs_of_runs;  ///< of each run that it owns

@@ -18,8 +18,8 @@ inline bool joins_anything(const FiberTopology& topology) {
          std::any_of(topology.joints.begin(), topology.joints.end(), is_number);
 }
 
-/// What is joined among parts of fibres, as DistributedFibers::topology has it: what is given
-/// beside the parts, or what the parts themselves have. Without vectors if nothing is joined.
+/// The joined points among parts of fibres, as DistributedFibers::topology has it: those given
+/// beside the parts, or those of the parts themselves. Without vectors if nothing is joined.
 /// @throws std::invalid_argument if both are given, and for vectors of other lengths
 FiberTopology part_topology(const FiberAssembly& parts, const FiberTopology& given);
 

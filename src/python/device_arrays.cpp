@@ -68,7 +68,7 @@ void require_order(const std::vector<std::int64_t>& strides, std::int64_t value,
   throw py::type_error("points on a device must be float32 or float64, they are " + type);
 }
 
-/// What somebody else's object says of itself.
+/// Asks somebody else's object about itself.
 template <class Value>
 Value taken(const py::handle& value, const std::string& name) {
   try {
@@ -196,7 +196,7 @@ py::tuple to_dlpack_device(const DeviceValues& values) {
 }
 
 py::capsule to_dlpack(const DeviceValues& values, std::shared_ptr<const void> owner) {
-  /// What the tensor points to.
+  /// Lives as long as the tensor that points to it.
   struct Shared {
     DLManagedTensor managed;
     std::int64_t shape;

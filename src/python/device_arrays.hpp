@@ -37,14 +37,14 @@ struct DeviceValues {
   std::optional<int> gpu;  ///< nothing for memory of the host
 };
 
-/// What __cuda_array_interface__ is.
+/// Makes the dictionary of __cuda_array_interface__.
 /// @throws py::attribute_error for values that are on no GPU
 py::dict to_cuda_array_interface(const DeviceValues& values);
 
-/// What __dlpack_device__() gives.
+/// Makes the result of __dlpack_device__().
 py::tuple to_dlpack_device(const DeviceValues& values);
 
-/// What __dlpack__() gives.
+/// Makes the result of __dlpack__().
 /// @param owner held until whoever takes the array lets it go, on any thread, without Python
 py::capsule to_dlpack(const DeviceValues& values, std::shared_ptr<const void> owner);
 

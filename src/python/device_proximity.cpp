@@ -104,7 +104,7 @@ DeviceProximity::Options to_device_options(double margin, const py::object& neig
   return options;
 }
 
-/// What one query has found: there as long as somebody holds it, or an array that was taken of it.
+/// The contacts of one query: there as long as somebody holds it, or an array that was taken of it.
 class PythonDeviceContacts {
  public:
   PythonDeviceContacts(std::shared_ptr<PythonDeviceProximity> of,

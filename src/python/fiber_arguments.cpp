@@ -39,7 +39,7 @@ std::vector<std::int32_t> to_joints(const py::object& object) {
   if (array.ndim() != 1) {
     refuse_shape(array, "joints", "(n,)");
   }
-  // Of numbers beyond int64 none stays a joint without a sign.
+  // Numbers beyond int64 would become joints without a sign.
   const py::array_t<std::int64_t, py::array::c_style | py::array::forcecast> wide(array);
   const bool is_unsigned = array.dtype().kind() == 'u';
   std::vector<std::int32_t> joints;
@@ -56,7 +56,7 @@ std::vector<std::int32_t> to_joints(const py::object& object) {
   return joints;
 }
 
-/// What is joined, of arguments. Warns of numbers of joints that one point alone has.
+/// Takes joined points from arguments. Warns of numbers of joints that one point alone has.
 /// @param closed    a bool for all, (fibres,) of bool, or None
 /// @param joints    (n,) of whole numbers, or None
 /// @param tolerance [m], or None

@@ -60,7 +60,7 @@ py::dtype obstacle_force_dtype() {
                     sizeof(Force));
 }
 
-/// Of what exerts force and moment on nodes.
+/// Binds forces and moments on nodes.
 /// @param name of the member that counts these
 template <class Force>
 py::dtype node_force_dtype(const char* name, std::uint32_t Force::*member) {

@@ -3,7 +3,7 @@
 #include "src/python/bindings.hpp"
 
 PYBIND11_MODULE(_native, module) {
-  // What this file makes of the world is described in the package's __init__.py.
+  // The package's __init__.py describes the parts of this module.
   module.doc() = "The compiled part of fiber_proximity; import that.";
   fiber::register_paper_engines();
   fiber::register_cuda_engines();

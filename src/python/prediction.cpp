@@ -72,7 +72,7 @@ Trajectory to_trajectory(const py::handle& object) {
   return trajectory;
 }
 
-/// What no directions were given for keeps those that its hold has.
+/// A trajectory without directions keeps those that its hold has.
 HoldTrajectory hold_trajectory(const SimScene& scene, const Trajectory& asked) {
   const std::uint32_t rod = find_fiber(scene, asked.fiber.first, asked.fiber.second);
   const std::uint32_t node = find_node(scene, rod, asked.node).node;

@@ -133,7 +133,7 @@ void ContactAccumulator::absorb(const ContactAccumulator& part) {
   pairs_left_ -= part.pairs_taken();
   result_.counts += part.result_.counts;
   result_.limit_reached = result_.limit_reached || part.result_.limit_reached;
-  // What the part has not found is beyond its bound.
+  // Pairs that the part has not found are beyond its bound.
   leave_out(std::min(part.result_.others_lower, part.bound_));
   if (!part.result_.complete) {
     end_early();

@@ -128,8 +128,8 @@ class LoopCriteria {
                          limit_(distance.distance)};
   }
 
-  /// What is within this criterion, if there is one, is within all others: other places on the
-  /// segments are no further from the nearest ones than the longer segment.
+  /// The criterion, if there is one, that implies all others: other places on the segments are no
+  /// further from the nearest ones than the longer segment.
   std::optional<LoopCriterion> of_all() const {
     LoopCriterion criterion = of_nearest();
     criterion.limit -= limit_.longer_length();

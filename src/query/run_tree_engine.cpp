@@ -108,7 +108,8 @@ void RunTreeEngine::begin_to_serve(const FiberAssembly& fibers) {
 
 /// Whether the points are close enough to where the tree has them; notes how close.
 bool RunTreeEngine::tree_still_serves(const FiberAssembly& fibers) {
-  // Of the pairs that are kept: other queries see for themselves whether these serve them, too.
+  // The margin of the pairs that are kept: other queries see for themselves whether these serve
+  // them, too.
   const double margin = std::isfinite(cache_.margin()) ? cache_.margin() : 0.0;
   moved_ = motion_.measure(fibers, skin_.skin(), margin);
   const bool serves = moved_.leaves(skin_.skin(), margin) && !skin_.is_over();

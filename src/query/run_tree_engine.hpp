@@ -63,7 +63,7 @@ class FIBER_PROXIMITY_EXPORT RunTreeEngine final : public ProximityEngine {
   void start_anew(const FiberAssembly& fibers, const MotionBound* motion);
   void forget(const FiberAssembly& fibers);
   void begin_to_serve(const FiberAssembly& fibers);
-  /// Of the fibres since the tree was fitted.
+  /// The motion of the fibres since the tree was fitted.
   MotionSinceFit since_fit() const {
     return moved_before_fit_ > 0.0 ? MotionSinceFit::within(moved_.beyond + moved_before_fit_)
                                    : moved_;

@@ -13,7 +13,7 @@
 
 namespace fiber {
 
-/// What the jobs of a round know of each other.
+/// State that the jobs of a round share.
 class SearchRound {
  public:
   /// @param pairs_left that may be examined in the round

@@ -14,7 +14,7 @@
 
 namespace fiber {
 
-/// What a search of the tree takes, counted or estimated.
+/// The size of a search of the tree, counted or estimated.
 struct SearchSize {
   double overlaps = 0.0;  ///< boxes of nodes and runs that are near others
   double pairs = 0.0;     ///< that it comes upon; at least, where that is more than was asked for

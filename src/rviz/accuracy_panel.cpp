@@ -137,7 +137,7 @@ void AccuracyPanel::process(const fiber_proximity::StatisticsConstPtr& answer) {
   answer_->setText(QString::fromStdString(answer->summary));
 }
 
-/// What the node says of its settings is said here in its own words.
+/// Messages of the node about its settings are shown in its own words.
 void AccuracyPanel::process_log(const rosgraph_msgs::LogConstPtr& log) {
   const bool is_of_node = ros::names::resolve(log->name) == ros::names::resolve(node_);
   if (is_of_node && log->level >= rosgraph_msgs::Log::WARN) {

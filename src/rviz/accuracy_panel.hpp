@@ -24,8 +24,8 @@
 
 namespace fiber_proximity_rviz {
 
-/// What accuracy costs while one watches: the settings of a proximity node, and beside them what
-/// its answers of the last 30 s took, by part, and what is uncertain of them.
+/// Shows the cost of accuracy while one watches: the settings of a proximity node, and beside them
+/// what its answers of the last 30 s took, by part, and what is uncertain of them.
 class AccuracyPanel : public rviz::Panel {
  public:
   explicit AccuracyPanel(QWidget* parent = nullptr);

@@ -13,7 +13,7 @@ namespace fiber_proximity_rviz {
 /// all that there is, or not all of it was looked at.
 double proven_uncertainty(const fiber_proximity::Statistics& answer);
 
-/// What the answers of the last seconds took, and how sure they were.
+/// The times of the answers of the last seconds, and how sure they were.
 class AnswerHistory {
  public:
   struct Answer {

@@ -8,9 +8,9 @@
 
 namespace fiber_proximity_rviz {
 
-/// What each setting costs and errs for one question: time against error, on logarithmic axes, one
-/// colour a setting. An error of 0 is at the lower edge, and what misses contacts is hollow. What
-/// another setting dominates is pale. Below stand their names, and what to take, and why.
+/// Plots the time and the error of each setting for one question, on logarithmic axes, one colour a
+/// setting. An error of 0 is at the lower edge, and settings that miss contacts are hollow.
+/// Dominated ones are pale. Below stand their names, and which to take, and why.
 class SettingsChart : public QWidget {
  public:
   /// @param question as `type` of a query is called

@@ -64,7 +64,8 @@ struct CosineSine {
   double sine;
 };
 
-/// Of an angle, to some units of the last digit. The standard library's differ between processors.
+/// Cosine and sine of an angle, to some units of the last digit. The standard library's differ
+/// between processors.
 inline CosineSine cosine_and_sine(double angle) {
   // The series of an eighth of an angle of up to half a turn are short.
   const double eighth = 0.125 * nearest_turn(angle, 0.0);
@@ -116,7 +117,7 @@ class PackLane {
   std::size_t lane() const { return lane_; }
   std::uint32_t node_count() const { return rods_.node_count; }
   bool has_twist() const { return rods_.unknowns == 4; }
-  /// Of an edge, and of the length at rest that belongs to a node.
+  /// The stiffness of an edge, and of the length at rest that belongs to a node.
   double stretching_stiffness(std::uint32_t edge) const {
     return rods_.stretching_stiffness[lane_] *
            section_share(rods_.inverse_stretching_lengths, edge, rest_length(edge));

@@ -95,7 +95,7 @@ void validate_parts(std::uint32_t rod, double length, const std::vector<RodSecti
   }
 }
 
-/// What a stretch of rod adds up to.
+/// The sums over a stretch of rod.
 struct Sum {
   double stretching = 0.0;  // lengths of the rod's own section [m]
   double bending = 0.0;

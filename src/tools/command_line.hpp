@@ -14,7 +14,7 @@ namespace fiber {
 /// Exit codes of all tools.
 enum ExitCode { SUCCEEDED = 0, DISAGREED = 1, REFUSED = 2 };
 
-/// What a tool does once its command line is parsed.
+/// The work of a tool once its command line is parsed.
 using Command = std::function<ExitCode()>;
 
 /// Declares a tool's options and sets the command; one with subcommands has each of them set it

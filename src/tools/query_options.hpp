@@ -33,7 +33,8 @@ void add_fiber_options(CLI::App& app, FiberRequest& request, const std::string& 
 /// Adds `--radius` and `--skip-single-points`.
 void add_read_options(CLI::App& app, ReadOptions& reading);
 
-/// What an answer depends on of them, as the runs of files that can be gone on with are named.
+/// The part of them that an answer depends on, as the runs of files that can be gone on with are
+/// named.
 std::string text_of(const ReadOptions& reading);
 
 void add_threads_option(CLI::App& app, std::uint32_t& threads, const std::string& help);

@@ -102,7 +102,7 @@ class DeviceProximity {
   void update(const double* coordinates);
   void update(const float* coordinates);
 
-  /// The same of points on the host, looked at on the device. Those that are page-locked, by
+  /// Updates to points on the host, looked at on the device. Those that are page-locked, by
   /// lock_points() or by CUDA, it reads by itself; others are copied on all threads.
   /// @throws std::invalid_argument for another number of points, and naming the first that cannot
   /// be

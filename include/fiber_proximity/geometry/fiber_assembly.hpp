@@ -148,10 +148,10 @@ class FiberAssembly {
   /// How radii() are given.
   RadiusPer radius_per() const { return radius_per_; }
 
-  /// What is joined; null where nothing is. For engines.
+  /// The graph of joined points; null where none are joined. For engines.
   const std::shared_ptr<const FiberGraph>& graph() const { return graph_; }
 
-  /// What is joined, as it was given; where nothing is, empty.
+  /// The joined points as they were given; empty where none are.
   FiberTopology topology() const;
 
   /// Whether the fibre's last segment ends at its first point.

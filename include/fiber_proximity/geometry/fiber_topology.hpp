@@ -8,10 +8,10 @@
 
 namespace FIBER_PROXIMITY_EXPORT fiber {
 
-/// What is joined among the points of many fibres: by default nothing, and every fibre is an open
+/// Tells which points of many fibres are joined: by default none are, and every fibre is an open
 /// chain of its own.
 ///
-/// What is joined is neighbour along the graph: neighbour skips count along the shortest way, and
+/// Joined points are neighbours along the graph: neighbour skips count along the shortest way, and
 /// the rule of loops (LoopTest) asks every way.
 struct FiberTopology {
   /// By fibre, not 0 where the last point is joined to the first by a segment of its own, which is

@@ -36,7 +36,7 @@ struct DistributedFibers {
   /// Names of the fibres by number, the same on all ranks: for files and answers.
   FiberNames fiber_names{};
 
-  /// What is joined, of fibres that are cut into parts as well. `closed` is by part, whether its
+  /// The joined points, of fibres that are cut into parts as well. `closed` is by part, whether its
   /// fibre is closed: the fibre's last point is then its first one, repeated, and has its joint.
   /// `joints` is by point of the parts, and points of one number are one place on whatever ranks
   /// they are. Empty for chains, and where the parts are closed or joined themselves.
@@ -91,7 +91,7 @@ struct DistributedFacts {
   /// Work of this rank for queries since the last update.
   QueryCounts query_counts;
 
-  /// Of closed and joined fibres that this rank knows whole, its own segments among them.
+  /// Segments of closed and joined fibres that this rank knows whole, its own among them.
   std::uint64_t joined_segments = 0;
 };
 

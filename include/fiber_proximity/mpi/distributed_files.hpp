@@ -30,7 +30,7 @@ bool is_hdf5_name(const std::string& path);
 
 struct DistributedFileOptions {
   bool has_frames = false;  ///< whether frames have numbers; without, the file holds exactly one
-  /// What the file is made of and how, on one line: kept with each frame. What another run left is
+  /// One line about the file's sources and options: kept with each frame. Frames of another run are
   /// taken up only if it is the same.
   std::string run;
   bool resume = false;  ///< go on after the frames that an earlier run has finished

@@ -89,7 +89,7 @@ struct MotionResult {
   /// The contact that begins first during the motion, nullptr if there is none.
   const MotionContact* earliest() const;
 
-  /// The same of those that this holds for.
+  /// Finds the same where only some pairs are asked about.
   template <class IsAsked>
   const MotionContact* earliest(const IsAsked& is_asked) const {
     const MotionContact* first = nullptr;

@@ -127,8 +127,8 @@ class BendToSide : public Effect {
   void for_each_bend(const RodPack& rods, const NodeValues& values, const Visit& visit) const;
 };
 
-/// What rods resist to bending towards Rods::stiff_sides beyond the resistance of Bend, which is to
-/// be there, too. ρ₀ is that of natural curvature.
+/// Resists bending towards Rods::stiff_sides, beyond the resistance of Bend, which is to be there,
+/// too. ρ₀ is that of natural curvature.
 class AnisotropicBend : public BendToSide {
  public:
   void begin_step(Rods& rods, const TimeStep& step) override;

@@ -34,7 +34,7 @@ struct RodForces {
     double max_force;        ///< with which the hold pulls at most [N]
   };
 
-  /// What rods exert on an object that moves.
+  /// The force and the moment that rods exert on an object that moves.
   struct ObstacleForce {
     std::uint32_t object;    ///< as ContactForce counts them
     Eigen::Vector3d point;   ///< the origin of the object [m]

@@ -18,7 +18,7 @@ namespace fiber {
 /// half of the rod's slowest period may not lead to rest where a moment is oblique to the rod.
 class Loads : public Effect {
  public:
-  /// What acts at a node, or along a part of a rod.
+  /// A force, moment or weight at a node, or along a part of a rod.
   struct Load {
     std::uint32_t rod = 0;
     std::uint32_t node = 0;       ///< from the rod's first one, where there is no part
@@ -36,7 +36,7 @@ class Loads : public Effect {
     /// edges takes a half.
     TimeTable<double> torque{0.0};
 
-    /// Of a weight, which adds to the inertia of nodes [kg], along a part [kg/m]; >= 0.
+    /// Mass of a weight, which adds to the inertia of nodes [kg], along a part [kg/m]; >= 0.
     double mass = 0.0;
   };
 

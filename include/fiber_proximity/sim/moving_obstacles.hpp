@@ -79,7 +79,7 @@ class ObstacleMotions {
   /// Takes where the objects of another simulation are, which are the same.
   void take_state(const ObstacleMotions& other) { poses_ = other.poses_; }
 
-  // What a step does, in this order. Poses change with the end of a solve only.
+  // A step calls these in this order. Poses change with the end of a solve only.
 
   /// @param time at which the step begins [s]
   void begin_step(double time);

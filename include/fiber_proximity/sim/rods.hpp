@@ -65,7 +65,7 @@ struct RodSectionPart {
   bool is_rigid = false;
 };
 
-/// What sections along parts of rods amount to, with stiffnesses in series: lengths of the rods'
+/// Equivalents of sections along parts of rods, with stiffnesses in series: lengths of the rods'
 /// own sections (Rods::sections) that would give way as much.
 struct SectionLengths {
   std::vector<double> stretching;  ///< of edges [m]

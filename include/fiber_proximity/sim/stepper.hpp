@@ -117,7 +117,7 @@ class Stepper {
   /// Null for none.
   const Joints* joints() const { return joints_.get(); }
 
-  /// Of the obstacles that move; null for none. They may be redirected between two steps.
+  /// The motions of obstacles; null for none. They may be redirected between two steps.
   ObstacleMotions* moving_obstacles() const;
 
   /// Whether there may be some: whether its contacts have motions.

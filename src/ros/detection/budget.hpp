@@ -9,7 +9,7 @@
 
 namespace fiber_proximity_ros {
 
-/// What is done for an answer, in this order.
+/// The stages of an answer, in this order.
 enum class Stage {
   CONTACTS,            ///< of fibres with each other, and their closest pair
   MOTION,              ///< contacts in the time since the answer before

@@ -46,14 +46,14 @@ bool is_of_same_fiber(const MotionContact& contact) { return contact.fiber_a == 
 bool is_of_different_fibers(const MotionContact& contact) { return !is_of_same_fiber(contact); }
 bool is_any(const MotionContact& /*contact*/) { return true; }
 
-/// What a prediction of told points with the certain margin knows: by when a contact has come.
+/// A prediction of told points with the certain margin tells by when a contact has come.
 void take_certain(const PredictedContact& certain, PredictedContact& message) {
   message.certain = certain.certain;
   message.time_upper = certain.time_upper;
 }
 
-/// What is left of a prediction of told points with the possible margin: when no contact can be
-/// before, not when one is certain to be.
+/// A prediction of told points with the possible margin tells until when no contact can be, not
+/// when one is certain to be.
 void keep_possible(PredictedContact& message) {
   message.certain = false;
   message.time_upper = std::numeric_limits<double>::infinity();

@@ -63,7 +63,7 @@ WaitingChanges::Waiting::Waiting(Change received) : change(std::move(received)) 
   poses.reserve(change.frames.size());
 }
 
-/// What is malformed does not choose the fixed frame.
+/// A malformed change does not choose the fixed frame.
 void WaitingChanges::Waiting::find_poses(FixedFrame& frame) {
   while (!is_placed() && (apply || !frame.name().empty())) {
     const FramedName& next = change.frames[poses.size()];

@@ -49,16 +49,16 @@ struct Answer {
 /// [s] Of the parts that bring what there is up to date, which no deadline can shorten.
 double update_time(const Answer& answer);
 
-/// What the answer says, what of that is proven and what it cost: a line about fibres, one about
+/// Tells an answer, how much of it is proven and what it cost: a line about fibres, one about
 /// objects and one about time, without an end of line behind the last.
 ///
 ///     robust: 18 of 18 contacts (each to 3.8e-17 m), closest 2.31 mm (to 1.2e-18 m)
 ///     objects: at least 3 contacts, cut off, closest 1.20 mm, true >= -5.00 mm
 ///     0.35 of 0.30 ms: contacts 0.10, environment_contacts 0.20 (incomplete), others 0.05
 ///
-/// What is told as found, "18 of 18", is all there is. Bounds are rounded outwards, other distances
-/// and times to the nearest digit. A pair counts as a contact as the kernel has it. Of what is
-/// unknown or was cut off nothing is told as complete.
+/// A number told as found, "18 of 18", is all there is. Bounds are rounded outwards, other
+/// distances and times to the nearest digit. A pair counts as a contact as the kernel has it. Of
+/// what is unknown or was cut off nothing is told as complete.
 std::string answer_text(const Answer& answer);
 
 }  // namespace fiber_proximity_ros

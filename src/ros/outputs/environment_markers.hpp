@@ -11,7 +11,7 @@
 
 namespace fiber_proximity_ros {
 
-/// What is around the fibres, to draw. Holds references: only for the call.
+/// The objects around the fibres, to draw. Holds references: only for the call.
 struct EnvironmentDrawing {
   const std::vector<fiber::EnvironmentObject>& objects;
   const std::vector<fiber::Contact>& contacts;  ///< fiber_b is the index of the object

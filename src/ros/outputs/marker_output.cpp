@@ -33,7 +33,7 @@ void MarkerOutput::publish(const DetectedScene& subject, CrossingsOutput& crossi
   if (!inputs.uncertainties().empty()) {
     options.certain_margin = subject.query.margin;
   }
-  // What was detected before is not to be seen any more when there is nothing around.
+  // Markers of what was detected before go when there is nothing around.
   const bool is_alone = !subject.scene.environment.is_used();
   const Detection& found = subject.detector.detection();
   const Detection& around = subject.environment.detection();

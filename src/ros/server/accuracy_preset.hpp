@@ -13,7 +13,7 @@ namespace fiber_proximity_ros {
 /// @throws std::invalid_argument for an unknown accuracy, listing the known ones
 void apply_accuracy(const std::string& accuracy, fiber::QueryOptions& options);
 
-/// What a user has to be told of this parameter: that it overrides some of the others although they
+/// Tells a user about this parameter: that it overrides some of the others although they
 /// have been set, such as "overrides kernel exact, tolerance 0.001; accuracy custom uses them", or
 /// that it has no effect. Empty if there is nothing to tell.
 /// @param options after apply_accuracy()

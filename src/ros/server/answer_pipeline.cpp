@@ -58,7 +58,7 @@ void AnswerPipeline::answer(const AnswerCause& cause) {
   const bool has_statistics = statistics_.has_listeners();
   const bool wants_everything = has_statistics || markers_.has_listeners();
   const bool wants_contacts = wants_everything || contacts_.has_listeners();
-  // What has gone is told of once: the last answer, and the end of its touches.
+  // The end of what was around is told once: the last answer, and the end of its touches.
   const bool was_around = std::exchange(is_around_, scene_.environment.is_used());
   const bool looks_around =
       (is_around_ || was_around) && (wants_everything || environment_contacts_.has_listeners());

@@ -202,7 +202,7 @@ bool append(const fiber::PathContact& contact, double uncertainty, std::uint8_t 
   response.contacts.back().certain =
       is_known && (contact.when.certain || response.contacts.back().certain != 0);
   response.time_lower.push_back(contact.when.lower);
-  // Of a contact that is only possible there is no time at which it is certain.
+  // A contact that is only possible has no time at which it is certain.
   response.time_upper.push_back(is_known ? contact.when.upper
                                          : std::numeric_limits<double>::infinity());
   return is_known;

@@ -35,7 +35,7 @@ class MeasureService {
   void offer(const std::shared_ptr<const FiberMessage>& fibers, const fiber::QueryOptions& asked);
 
  private:
-  /// What a measurement is about.
+  /// The fibres and settings that a measurement is about.
   struct Material {
     std::vector<std::shared_ptr<const FiberMessage>> frames;
     fiber::QueryOptions asked;

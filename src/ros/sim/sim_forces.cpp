@@ -81,7 +81,8 @@ geometry_msgs::WrenchStamped wrench_of(const fiber::SimScene& scene,
   return message;
 }
 
-/// What holds, joints and loads have alike: the node, where it is, and what acts there.
+/// Writes the fields that holds, joints and loads have alike: the node, where it is, and what acts
+/// there.
 template <class Force, class Message>
 void fill_in_wrench(const Force& force, Message& message) {
   message.fiber = force.rod;

@@ -66,8 +66,8 @@ struct Barrier {
   /// No contact lets a distance fall to this [m].
   double min_distance() const { return outer - width() / (1.0 - max_relief); }
 
-  /// What an obstacle that moves presses a contact with at most: ten thousand times the force where
-  /// surfaces meet, which leaves a sixteenth of the width [N].
+  /// The most that an obstacle that moves presses a contact with: ten thousand times the force
+  /// where surfaces meet, which leaves a sixteenth of the width [N].
   double max_driven_force() const { return -slope(inner + width() / 16.0); }
 
   /// [J]

@@ -232,7 +232,7 @@ Friction::Law ContactSet::ResistedPoint::law(double slip, double stick_length) c
   return {max_force * unit.energy, max_force * unit.resistance, max_force * unit.curvature};
 }
 
-/// Of friction, or with a midpoint normal.
+/// The point of a contact with friction or a midpoint normal.
 const ContactSet::ResistedPoint& ContactSet::resisted_point(std::size_t contact) const {
   contact -= distance_count();
   return contact < frictions_.size() ? frictions_[contact]

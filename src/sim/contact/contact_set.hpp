@@ -166,8 +166,8 @@ class ContactSet {
                            const std::vector<std::uint32_t>& islands,
                            std::vector<MotionEnergy>& energies) const;
 
-  /// What contacts press with along the ways of obstacles, in front of them or behind [J], and the
-  /// most that these may.
+  /// The work along the ways of obstacles against the pressure of contacts, in front of them or
+  /// behind [J], and the most that it may be.
   struct Resistance {
     double now = 0.0;
     double most = 0.0;
@@ -229,7 +229,7 @@ class ContactSet {
 
     Eigen::Vector3d slip(const Rods& rods) const;
 
-    /// What of its energy is given back: what has slid is lost [J].
+    /// The part of its energy that is given back: the slid part is lost [J].
     double stored_energy(double slip, double stick_length) const {
       return law(std::min(slip, stick_length), stick_length).energy;
     }
@@ -274,9 +274,9 @@ class ContactSet {
   std::vector<bool> was_near_;                        // when the step began, by contact
   std::vector<ResistedPoint> frictions_;
   std::vector<ResistedPoint> midpoint_forces_;  // turn normal forces to the middle of the way
-  // What friction of a contact goes on with, by contact, once that has pressed in the step. It
-  // stays that one: the points of a contact move while forces are balanced, and with friction that
-  // jumps from one anchor to another they never are.
+  // The anchor that friction of a contact goes on with, by contact, once that has pressed in the
+  // step. It stays that one: the points of a contact move while forces are balanced, and with
+  // friction that jumps from one anchor to another they never are.
   std::vector<std::optional<const FrictionAnchors::Anchor*>> anchors_;
   std::vector<double> max_forces_before_;  // of friction, by contact [N]; buffer
   std::vector<Impact> impacts_;            // of the step

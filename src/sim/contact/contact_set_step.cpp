@@ -90,8 +90,8 @@ std::vector<Impact> ContactSet::find_impacts(const Rods& rods,
     if (energies_[i] == 0.0) {
       continue;
     }
-    // What a contact may give back is what its points press with. Slopes are more where others
-    // pull: two edges beside the node between them share what it would press with.
+    // A contact may give back what its points press with. Slopes are more where others pull: two
+    // edges beside the node between them share what it would press with.
     double pressure = 0.0;  // of all points [N]
     if (may_return(i)) {
       for_each_term(rods, i, buffer,

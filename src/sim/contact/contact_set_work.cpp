@@ -11,7 +11,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// What a point of a contact has done too much.
+/// The work that a point of a contact has done too much.
 struct ExcessWork {
   double work;     // [J]
   Vector3d moved;  // by how much the sides have moved against each other

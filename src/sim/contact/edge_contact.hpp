@@ -164,7 +164,7 @@ class DistanceTerms {
 
   /// A matrix whose product with its own transpose is the positive part of a symmetric one.
   static Square root_of_positive_part(const Square& matrix) {
-    // Of one that is positive already, in a tenth of the time of eigenvectors.
+    // A positive one needs no eigenvectors, and this takes a tenth of their time.
     const Eigen::LLT<Square> cholesky(matrix);
     if (cholesky.info() == Eigen::Success) {
       return cholesky.matrixL();

@@ -32,7 +32,7 @@ struct Impact {
   /// Sides that approach each other more slowly come to rest [m/s].
   static constexpr double min_speed = 0.05;
 
-  /// What a contact gives back is taken back if it is faster [m/s].
+  /// Only faster returns of a contact are taken back [m/s].
   static constexpr double min_returned_speed = 0.002;
 
   ContactPoints points;

@@ -26,8 +26,8 @@ Symmetry symmetry_of(const Shape& shape) {
   return is_round ? Symmetry::ABOUT_Z : Symmetry::NONE;
 }
 
-/// Of the poses in which a shape fills the same space as in the last one, the one that it reaches
-/// from the first one with the least turn.
+/// Among the poses in which a shape fills the same space as in the last one, the one that it
+/// reaches from the first one with the least turn.
 Isometry3d nearest_alike(const Shape& shape, const Isometry3d& first, const Isometry3d& last) {
   constexpr double nothing = 1e-14;  // of a turn: roundings
   const Symmetry symmetry = symmetry_of(shape);

@@ -105,7 +105,7 @@ std::optional<double> ObstaclePiece::middle_of_flat(const Vector3d& p0, const Ve
   const Vector3d q0 = shape_->to_shape * p0;
   const Vector3d q1 = shape_->to_shape * p1;
   return ask_solid([&](const auto& solid, const Vector3d& center) {
-    // Of flats that are as near the first: their points are not to change with each step.
+    // The first of flats that are as near: their points are not to change with each step.
     const double rounding = 1e-6 * (p1 - p0).norm();
     std::optional<double> found;
     double least = std::numeric_limits<double>::infinity();

@@ -19,7 +19,7 @@ namespace fiber {
 namespace HWY_NAMESPACE {
 namespace {
 
-// What Damping keeps of each node without twist.
+// Numbers that Damping keeps of each node without twist.
 constexpr std::size_t sizes_per_node = 2;
 
 void energy(const RodPack& rods, const NodeValues& earlier, const double* share,

@@ -200,7 +200,7 @@ void Loads::begin_step(Rods& rods, const TimeStep& step) {
     if (share.has_moment) {
       share.moment = load.moment.at(step.end());
       share.start_tangent = edge_direction(rods, share.node).tangent;
-      // What of the moment is along the edge acts on its cross-section, if that resists twist.
+      // The moment's part along the edge acts on its cross-section, if that resists twist.
       share.along = rods.angles.empty() ? 0.0 : share.moment.dot(share.start_tangent);
     }
   }

@@ -15,7 +15,7 @@ namespace fiber {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-/// What a rod may come to in a solve.
+/// The room that a rod may come to in a solve.
 struct MovingObstacleContact::RodReach {
   WorldBox box;         // of the rod
   double needed = 0.0;  // the distance within which it may reach contacts [m]
@@ -73,7 +73,7 @@ class MovingObstacleContact::Finder {
     if (is_bounded(*shape.shape)) {
       return path.turn_length(reach(*shape.shape));
     }
-    // What counts of a plane is what is near the rod.
+    // Only the part of a plane near the rod counts.
     const Vector3d origin = shape.pose.translation();
     const WorldBox& box = reaches_[rod].box;
     const double far =

@@ -6,10 +6,11 @@
 
 namespace fiber {
 
-// What Damping does to rods with twist, whose cross-sections have directions of their own.
+// Damping of rods with twist, whose cross-sections have directions of their own.
 
-/// What it keeps of each edge and the node that the edge begins with: the length, and of inner
-/// nodes both components of the turn, the twist, and the part of that which the directors have.
+/// It keeps so many numbers of each edge and the node that the edge begins with: the length, and of
+/// inner nodes both components of the turn, the twist, and the part of that which the directors
+/// have.
 constexpr std::size_t section_strains_per_node = 5;
 
 /// Adds the strains that inner nodes have in a state, times a weight.

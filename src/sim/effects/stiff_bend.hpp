@@ -4,8 +4,8 @@
 
 namespace fiber {
 
-/// What bending between two cross-sections takes towards a stiff side beyond what it takes across
-/// it: ½ k (ρ − ρ₀)², see AnisotropicBend.
+/// The energy of bending between two cross-sections towards a stiff side beyond that of bending
+/// across it: ½ k (ρ − ρ₀)², see AnisotropicBend.
 class StiffBend {
  public:
   /// ρ between two cross-sections.

@@ -51,7 +51,7 @@ bool has_stiff_side(const Rods& rods, const WeldedEdge& edge) {
   return !rods.stiff_sides.empty() && rods.stiff_sides[edge.node].stiffness > 0.0;
 }
 
-/// What half an edge resists of turns to all sides of the first section of a weld, when its
+/// The resistance of half an edge to turns to all sides of the first section of a weld, when its
 /// cross-section comes there on the shortest way.
 /// @param edge gone along as the first edge of the weld, or rather so than against it
 Matrix2d half_edge_spring(const Rods& rods, const WeldedEdge& edge, const WeldedEdge& first) {

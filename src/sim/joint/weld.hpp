@@ -42,7 +42,7 @@ struct Weld {
   /// A closed rod's seam: the natural curvature there is the rod's.
   bool is_seam = false;
 
-  // Of the step.
+  // Values of the step.
   double damping_share = 0.0;                                ///< of the stiffnesses
   Eigen::Vector4d earlier_strain = Eigen::Vector4d::Zero();  ///< that rates are measured from
 };

@@ -1,4 +1,4 @@
-// What the tables of keys in keys.cpp and effect_keys.cpp are made with.
+// Functions that make the tables of keys in keys.cpp and effect_keys.cpp.
 #pragma once
 
 #include <Eigen/Core>

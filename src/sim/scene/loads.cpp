@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// What a load exerts at a time.
+/// The force and the moment of a load at a time.
 struct Exerted {
   Vector3d force = Vector3d::Zero();
   Vector3d moment = Vector3d::Zero();

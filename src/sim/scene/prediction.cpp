@@ -47,8 +47,8 @@ PlacementPath path_from_now(const SimScene& scene, const HoldTrajectory& traject
   const Rods& rods = scene.stepper->rods();
   const double now = scene.stepper->time();
   PlacementPath whole{{now, placement_now(scene, trajectory.rod, trajectory.node)}};
-  // What is at time 0 may be off by as much as a hold may be moved within a step, and as a hold in
-  // a scene may be off its node.
+  // The first state may be off by as much as a hold may be moved within a step, and as a hold in a
+  // scene may be off its node.
   const double max_gap = std::max(
       std::min(pull_speed(rods.sections[trajectory.rod], scene.max_strain) * scene.step_length(),
                rods.rest_lengths[std::min(rods.first(trajectory.rod) + trajectory.node,

@@ -1,4 +1,4 @@
-// What was found of a motion, in lines.
+// The results of a prediction, in lines.
 
 #include <sstream>
 

@@ -21,12 +21,13 @@ constexpr Resolution coarsest_resolution{0.5, 0.5};
 /// else runs.
 constexpr double aimed_share = 0.5;
 
-/// What real_time has to know of a scene.
+/// The facts of a scene that real_time asks for.
 struct RealTimeScene {
   /// Nodes times substeps: the time of a frame is about in proportion to it.
   std::function<double(const Resolution&)> work;
 
-  /// What each of the first frames takes of one core [s], until they have taken a budget [s].
+  /// The time on one core that each of the first frames takes [s], until they have taken a budget
+  /// [s].
   /// @throws std::invalid_argument if the scene cannot be made with that resolution
   std::function<std::vector<double>(const Resolution&, double budget)> frame_times;
 

@@ -216,8 +216,8 @@ void warn_of_obstacle_lag(const SimScene& scene, std::vector<SimWarning>& warnin
   }
 }
 
-/// What brings a fibre into balance that goes far in a step: a thin one that slides over something
-/// round comes along it by parts of its radius in an iteration. Empty for others.
+/// Advice how a fibre comes into balance that goes far in a step: a thin one that slides over
+/// something round comes along it by parts of its radius in an iteration. Empty for others.
 std::string mend_of_balance(const SimScene& scene, const IslandReport& worst) {
   constexpr double usual_way = 25.0;  // radii
   const Rods& rods = scene.stepper->rods();

@@ -14,7 +14,7 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 using Ends = std::vector<Vector3d>;
 
-/// What is below that part of the ropes' length counts as rounding.
+/// Lengths below that part of the ropes' length count as rounding.
 constexpr double least_share = 1e-9;
 
 class Energy {

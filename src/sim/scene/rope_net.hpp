@@ -19,8 +19,8 @@ struct RopeNet {
   std::vector<Rope> ropes;
 };
 
-/// What pulls in a net whose held places are so far apart that its joints have nowhere to be: by
-/// rope, the tension of one that stretches where all do alike, 0 of those that are slack.
+/// Tensions of a net whose held places are so far apart that its joints have nowhere to be: by
+/// rope, that of one that stretches where all do alike, 0 of those that are slack.
 ///
 /// The tensions are a proof. Forces that are in equilibrium at each joint do no work where joints
 /// move: where Σ t_i d_i > Σ t_i l_i, with the distances d_i and lengths l_i, some rope is too

@@ -15,7 +15,7 @@ namespace fiber {
 RodMaterial read_material(const YamlField& field, const RodMaterial& otherwise,
                           std::string& defaults);
 
-/// What sections of a fibre have that does not say otherwise.
+/// The section of a fibre where its entry gives no other.
 struct FiberBody {
   RodMaterial material;
   double radius = 0.0;  ///< [m]

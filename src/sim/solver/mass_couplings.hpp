@@ -7,8 +7,8 @@
 
 namespace fiber {
 
-/// What Rods::mass_couplings adds to the incremental potential of a pack: for each rigid part, with
-/// the ways e of its ends from where inertia alone would bring them, −½ c |e₁ − e₂|² / h². Together
+/// Adds Rods::mass_couplings to the incremental potential of a pack: for each rigid part, with the
+/// ways e of its ends from where inertia alone would bring them, −½ c |e₁ − e₂|² / h². Together
 /// with the inertias of the nodes it is positive definite.
 class MassCouplings {
  public:

@@ -79,8 +79,9 @@ class NewtonSolver {
   /// By island: whether the last solve found impacts, or took something back after one.
   const std::vector<bool>& has_impacts() const { return has_impacts_; }
 
-  /// Of a solve that gave no result: the obstacles that have stayed behind as rods could not give
-  /// way, by index, and the part of their way that they came. Empty where that was not the reason.
+  /// After a solve that gave no result: the obstacles that have stayed behind as rods could not
+  /// give way, by index, and the part of their way that they came. Empty where that was not the
+  /// reason.
   const std::vector<std::uint32_t>& stuck_objects() const { return stuck_objects_; }
   double stuck_progress() const { return stuck_progress_; }
 

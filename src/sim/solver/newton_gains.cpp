@@ -85,7 +85,7 @@ void NewtonSolver::limit_velocities(Rods& rods, const Problem& problem) {
   if (std::all_of(gains_.begin(), gains_.end(), [](double gain) { return gain == 0.0; })) {
     return;
   }
-  // What friction stores is energy as well, if little.
+  // Friction stores energy as well, if little.
   problem.contacts->add_slip_energies(rods, scratch_->islands, gains_);
   std::vector<double> masses(states_.size(), 0.0);
   std::vector<Vector3d> momenta(states_.size(), Vector3d::Zero());

@@ -106,7 +106,8 @@ bool NewtonSolver::move_obstacles(Rods& rods, const Problem& problem) {
   return true;
 }
 
-/// What brings the rods of each island to the speed of the fastest obstacle that they may reach.
+/// Finds the energy that brings the rods of each island to the speed of the fastest obstacle that
+/// they may reach.
 void NewtonSolver::begin_drives(const Rods& rods, const Problem& problem) {
   std::vector<double>& ways = ways_left_;
   ways.assign(states_.size(), 0.0);

@@ -25,7 +25,7 @@ struct ObstacleTrajectory {
   ObstaclePath path;           ///< times from now [s]; from where the obstacle is
 };
 
-/// What is asked about the time to come.
+/// The options of a prediction.
 struct PredictionOptions {
   static constexpr double max_duration = 3600.0;
 

@@ -272,13 +272,13 @@ struct SimScene : SimSettings {
 
   SimParameters parameters;  ///< of its effects
 
-  /// What the steps of the last frame report, the worst of them: unbalanced islands and impacts of
-  /// all together, `worst` where most is left, the most iterations and the largest energy gain.
+  /// The worst that steps of the last frame report: unbalanced islands and impacts of all together,
+  /// `worst` where most is left, the most iterations and the largest energy gain.
   StepReport frame;
 
   std::string overlap_note;  ///< the overlaps that were separated at the beginning; empty without
 
-  /// Of the obstacles that move; null where there are none that fibres touch.
+  /// The motions of obstacles; null where none moves that fibres touch.
   const ObstacleMotions* motions() const { return stepper->moving_obstacles(); }
 
   /// All objects where they are now, those that move behind the others: as RodForces counts them.
