@@ -48,6 +48,9 @@ void add_simulate_command(CLI::App& app, Command& command) {
       "thread, in "
       "processor time; and how many times faster than the clock large scenes are",
       simulation_parts());
+  add_names(*simulate, "--validations", what.validations,
+            "with commas between them, of " + join(what.validations))
+      ->check(CLI::IsMember(what.validations));
   add_counts(*simulate, "--segments", what.segments, "of the hose");
   add_counts(*simulate, "--substeps", what.substeps, "of a frame");
   add_values(*simulate, "--residuals", what.residuals,

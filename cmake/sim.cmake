@@ -56,12 +56,12 @@ add_library(fiber_proximity_sim SHARED
   src/sim/solver/stage_solver.cpp
   src/sim/stepper.cpp
 )
-# Compiled apart: beside it the compiler would inline less of what scenes without it run through.
-set_source_files_properties(src/sim/contact/moved_shape.cpp src/sim/contact/moved_shapes.cpp
-  PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 target_link_libraries(fiber_proximity_sim
   PUBLIC fiber_proximity_environment PRIVATE TBB::tbb hwy::hwy fiber_proximity_options)
 fiber_proximity_parse_once(fiber_proximity_sim ${core_headers})
+# Compiled apart: beside them the compiler would inline less of what scenes without them run through.
+set_source_files_properties(src/sim/contact/moved_shape.cpp src/sim/contact/moved_shapes.cpp
+  PROPERTIES UNITY_GROUP fiber_proximity_sim_moved)
 fiber_proximity_component(sim fiber_proximity_sim)
 
 # The files of scenes: compiled apart, as nothing in them takes time.

@@ -1,16 +1,19 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "benchmark/report.hpp"
 #include "benchmark/sim/effect_costs.hpp"
 #include "benchmark/sim/loads.hpp"
+#include "benchmark/sim/validation.hpp"
 
 namespace fiber {
 
 /// Settings of the measurement of the simulation; all counts are at least 1, residuals above 0.
 struct SimulationMeasurement {
+  std::vector<std::string> validations = validation_names();    ///< what they are about
   std::vector<int> segments{10, 20, 30, 50, 100, 200, 400};     ///< of the hose
   std::vector<int> substeps{1, 2, 4, 8, 16, 32};                ///< of a frame of 1/60 s
   std::vector<double> residuals{1e-1, 1e-2, 1e-3, 1e-4, 1e-5};  ///< that a step may leave [m/s]

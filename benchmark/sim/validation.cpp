@@ -279,17 +279,36 @@ void validate_impacts(const Report& report) {
           push.momentum.norm(), push.impulse.norm(), felt_part});
 }
 
+struct Subject {
+  const char* name;
+  void (*validate)(const Report&);
+};
+
+constexpr Subject subjects[] = {{"cantilevers", validate_cantilevers},
+                                {"catenaries", validate_catenaries},
+                                {"loads", validate_loads},
+                                {"joints", validate_joints},
+                                {"motion", validate_motion},
+                                {"instability", validate_instability},
+                                {"friction", validate_friction},
+                                {"impacts", validate_impacts}};
+
 }  // namespace
 
-void validate_simulation(const Report& report) {
-  validate_cantilevers(report);
-  validate_catenaries(report);
-  validate_loads(report);
-  validate_joints(report);
-  validate_motion(report);
-  validate_instability(report);
-  validate_friction(report);
-  validate_impacts(report);
+std::vector<std::string> validation_names() {
+  std::vector<std::string> names;
+  for (const Subject& subject : subjects) {
+    names.emplace_back(subject.name);
+  }
+  return names;
+}
+
+void validate_simulation(const std::string& about, const Report& report) {
+  for (const Subject& subject : subjects) {
+    if (subject.name == about) {
+      subject.validate(report);
+    }
+  }
 }
 
 }  // namespace fiber

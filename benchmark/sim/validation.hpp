@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace fiber {
 
@@ -18,7 +19,11 @@ struct Validation {
   double error() const { return simulated / theory - 1.0; }
 };
 
-/// Simulates all of them, one after the other; less than a minute.
-void validate_simulation(const std::function<void(const Validation&)>& report);
+/// Names of what they are about.
+std::vector<std::string> validation_names();
+
+/// Simulates those about something, one after the other; all take less than a minute.
+void validate_simulation(const std::string& about,
+                         const std::function<void(const Validation&)>& report);
 
 }  // namespace fiber

@@ -35,7 +35,7 @@ class ContactJudge {
   DeviceContacts judge_to_host(Executor& executor, const TreePoints& points, double margin,
                                const std::uint64_t* pairs, std::uint32_t count) {
     begin(points, margin, pairs, count,
-          std::max(Executor::least_judged_at_once, count / most_parts + 1));
+          std::max(Executor::min_judged_at_once, count / max_parts + 1));
     std::uint32_t sent = 0;
     for (std::uint32_t part = 0; part < part_count_; ++part) {
       if (part == 0) {
@@ -71,7 +71,7 @@ class ContactJudge {
 
  private:
   // Each costs the device a few launches; the first is waited for.
-  static constexpr std::uint32_t most_parts = 8;
+  static constexpr std::uint32_t max_parts = 8;
 
   void begin(const TreePoints& points, double margin, const std::uint64_t* pairs,
              std::uint32_t count, std::uint32_t part_size) {
@@ -82,7 +82,7 @@ class ContactJudge {
     part_count_ = count == 0 ? 0 : (count - 1) / part_size + 1;
     judged_.resize(count);
     places_.resize(count);
-    totals_.resize(most_parts);
+    totals_.resize(max_parts);
     judge_.judged = judged_.data();
     judge_.are_contacts = places_.data();
   }
@@ -162,7 +162,7 @@ class ContactJudge {
   std::shared_ptr<Room> before_;  // of the contacts before, if they were held then
   HostRoom host_;
   typename Executor::template HostBuffer<std::uint32_t> totals_;
-  typename Executor::Mark marks_[most_parts];
+  typename Executor::Mark marks_[max_parts];
 };
 
 }  // namespace fiber

@@ -64,12 +64,12 @@ class CudaExecutor {
   template <class T>
   using HostBuffer = DeviceBuffer<T, PinnedMemory>;
 
-  static constexpr std::uint32_t least_judged_at_once = std::uint32_t{1} << 17U;
+  static constexpr std::uint32_t min_judged_at_once = std::uint32_t{1} << 17U;
 
   /// CUB counts in int before CUDA 13, and would count what is more as something else.
-  static constexpr std::uint64_t most_values = CUB_VERSION >= 300000
-                                                   ? std::numeric_limits<std::uint32_t>::max()
-                                                   : std::numeric_limits<std::int32_t>::max();
+  static constexpr std::uint64_t max_values = CUB_VERSION >= 300000
+                                                  ? std::numeric_limits<std::uint32_t>::max()
+                                                  : std::numeric_limits<std::int32_t>::max();
 
   /// Time of the GPU.
   class Clock {

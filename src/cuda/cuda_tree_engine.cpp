@@ -17,11 +17,11 @@ namespace {
 using Eigen::Vector3d;
 
 // Pairs that are found and sorted at once: 16 bytes each on the device.
-constexpr std::uint64_t most_at_once = std::uint64_t{1} << 28U;
+constexpr std::uint64_t max_pairs_at_once = std::uint64_t{1} << 28U;
 
 // Where there are more than that, or where one after the other is asked about.
 constexpr std::uint32_t leaves_a_piece = 4096;
-constexpr std::uint64_t most_a_piece = std::uint64_t{1} << 22U;
+constexpr std::uint64_t max_pairs_of_piece = std::uint64_t{1} << 22U;
 
 // Where few of the closest pairs are asked for, all within a distance that grows are looked at,
 // from this part of the extent on, by this factor.
@@ -166,7 +166,7 @@ void CudaTreeEngine::query(const Subject& subject, const QueryOptions& options,
 bool CudaTreeEngine::find_all(const Subject& subject, const NarrowPhase& test,
                               const QueryOptions& options, const QueryLimits& limits,
                               Memory& memory, QueryResult& result) const {
-  const std::uint64_t most = std::min(limits.pairs, most_at_once);
+  const std::uint64_t most = std::min(limits.pairs, max_pairs_at_once);
   const bool self = subject.shape == nullptr;
   if (find(subject, 0, subject.a.view().leaf_count(), rule_of(options, self, options.margin), most,
            memory.keys) > most) {
@@ -227,7 +227,7 @@ std::uint64_t CudaTreeEngine::offer(const Subject& subject, const PairRule& rule
   for (std::uint32_t leaf = 0; leaf < leaves && !collector.done_by_now();) {
     const std::uint32_t count = std::min(piece, leaves - leaf);
     const std::uint64_t most =
-        count == 1 ? std::numeric_limits<std::uint64_t>::max() : most_a_piece;
+        count == 1 ? std::numeric_limits<std::uint64_t>::max() : max_pairs_of_piece;
     if (find(subject, leaf, count, rule, most, keys) > most) {
       piece = (count + 1) / 2;
       continue;

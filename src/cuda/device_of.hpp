@@ -94,7 +94,7 @@ class DeviceOf final : public Device {
     touching_.resize(candidates.count);
     executor_->zero(touching_);
     const std::uint64_t found =
-        find_with(tree, 0, leaf_count(tree), tree, rule, most_pairs, [&](const WritePairs& pairs) {
+        find_with(tree, 0, leaf_count(tree), tree, rule, max_pairs, [&](const WritePairs& pairs) {
           return MarkTouching{tree.points(), margin,      tree.fibers_by_point(),
                               candidates,    needs_loops, touching_.data(),
                               pairs};
@@ -152,7 +152,7 @@ class DeviceOf final : public Device {
   using Turn = typename Executor::Turn;
 
   static constexpr std::uint64_t first_room = 1024;
-  static constexpr std::uint64_t most_pairs = Executor::most_values;
+  static constexpr std::uint64_t max_pairs = Executor::max_values;
 
   /// The pairs, sorted, in pairs_; none if there are more than `most`.
   std::uint64_t search(const DeviceTree& a, std::uint32_t first_leaf, std::uint32_t leaf_count,
@@ -200,16 +200,16 @@ class DeviceOf final : public Device {
 
   /// How many pairs of a tree's segments with each other are near; sorted, in pairs_.
   std::uint32_t search_for_contacts(const DeviceTree& tree, const PairRule& rule) {
-    const std::uint64_t found = search(tree, 0, leaf_count(tree), tree, rule, most_pairs);
+    const std::uint64_t found = search(tree, 0, leaf_count(tree), tree, rule, max_pairs);
     require_pairs(found);
     return static_cast<std::uint32_t>(found);
   }
 
   static void require_pairs(std::uint64_t found) {
-    if (found > most_pairs) {
+    if (found > max_pairs) {
       throw std::runtime_error("cuda_tree: " + std::to_string(found) +
                                " pairs are near, contacts may be of at most " +
-                               std::to_string(most_pairs));
+                               std::to_string(max_pairs));
     }
   }
 

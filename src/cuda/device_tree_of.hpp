@@ -33,8 +33,8 @@ namespace fiber {
 ///   sum of all from the first of them up to it
 /// - Mark: set(), and wait() until what came before is done
 /// - Clock: start(), stop(), and seconds() between the two of what the device has done
-/// - least_judged_at_once, pairs that are worth a part of their own where contacts go to the host
-/// - most_values that it sorts and adds up; memory_bytes() that this takes
+/// - min_judged_at_once, pairs that are worth a part of their own where contacts go to the host
+/// - max_values that it sorts and adds up; memory_bytes() that this takes
 template <class Executor>
 class DeviceTreeOf final : public DeviceTree {
  public:
@@ -180,7 +180,7 @@ class DeviceTreeOf final : public DeviceTree {
     keys_.resize(segment_count_);
     order_.resize(segment_count_);
     const int candidate_bits = candidates_.exist() ? bits_of(candidates_.count) : 0;
-    const int position_bits = std::min(PlaceSegments::most_bits, key_bits - candidate_bits);
+    const int position_bits = std::min(PlaceSegments::max_bits, key_bits - candidate_bits);
     executor_->for_each(segment_count_, PlaceSegments{points, bounds, keys_.data(), order_.data(),
                                                       candidates_, fibers_.data(), position_bits});
     executor_->sort_by_key(keys_, order_, segment_count_, candidate_bits + position_bits);

@@ -37,8 +37,8 @@ class HostExecutor {
   using HostBuffer = DeviceBuffer<T, Memory>;
 
   /// Few, so that small scenes have many parts.
-  static constexpr std::uint32_t least_judged_at_once = 50;
-  static constexpr std::uint64_t most_values = std::numeric_limits<std::uint32_t>::max();
+  static constexpr std::uint32_t min_judged_at_once = 50;
+  static constexpr std::uint64_t max_values = std::numeric_limits<std::uint32_t>::max();
 
   /// There is no device whose time would count.
   struct Clock {

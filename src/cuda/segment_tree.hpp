@@ -189,7 +189,7 @@ struct JoinBoxes {
 struct PlaceSegments {
   static constexpr std::uint32_t bits = 10;
   static constexpr double cells = (1U << bits) - 1U;
-  static constexpr int most_bits = 3 * bits;
+  static constexpr int max_bits = 3 * bits;
 
   TreePoints points;
   const PointBounds* bounds;
@@ -215,7 +215,7 @@ struct PlaceSegments {
       const double at = (middle - bounds->lower[axis]) * per_metre;
       cell[axis] = at > 0.0 ? static_cast<std::uint32_t>(at < cells ? at : cells) : 0U;
     }
-    std::uint32_t key = position(cell) >> (most_bits - position_bits);
+    std::uint32_t key = position(cell) >> (max_bits - position_bits);
     if (candidates.exist()) {
       key |= candidates.of_fibers[fibers[point]] << position_bits;
     }

@@ -124,9 +124,9 @@ double MotionBound::longest_segment(const FiberAssembly& fibers) const {
 double MotionBound::off_field(const FiberAssembly& fibers, double sampled) const {
   // Some points share what the field is at the first of them, where it changes that little.
   constexpr double shared_part = 0.1;
-  constexpr double most_shared = 15.0;
+  constexpr double max_shared = 15.0;
   const double change = field_.rate() * *longest_segment_;
-  const double others = std::floor(std::min(most_shared, shared_part * sampled / change));
+  const double others = std::floor(std::min(max_shared, shared_part * sampled / change));
   const auto count = 1 + static_cast<std::uint32_t>(others > 0.0 ? others : 0.0);
   const double off = root_above(largest_of(fibers, [&](std::uint32_t fiber) {
     double squared = 0.0;

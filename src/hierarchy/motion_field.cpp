@@ -12,7 +12,7 @@ using Eigen::Vector3d;
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 // So few that following them takes next to nothing beside a look at every point.
 constexpr std::size_t sampled_of = 64;  // points one
-constexpr std::size_t most_sampled = 4096;
+constexpr std::size_t max_sampled = 4096;
 constexpr double sampled_per_cell = 8.0;
 
 // Means of what is around a node are off where that is not around it evenly: once more, then.
@@ -21,7 +21,7 @@ constexpr int corrections = 2;
 constexpr int fill_sweeps = 8;
 
 // Nodes with less of the sample around them would follow single points.
-constexpr double least_weight = 0.5;
+constexpr double min_weight = 0.5;
 
 }  // namespace
 
@@ -29,12 +29,12 @@ void MotionField::reserve(std::size_t points) {
   if (points == 0) {
     return;
   }
-  constexpr std::size_t most_nodes = (most_cells + 1) * (most_cells + 1) * (most_cells + 1);
-  nodes_.reserve(most_nodes);
-  weights_.reserve(most_nodes);
-  sums_.reserve(most_nodes);
-  are_known_.reserve(most_nodes);
-  constexpr std::size_t all_cells = std::size_t{most_cells} * most_cells * most_cells;
+  constexpr std::size_t max_nodes = (max_cells + 1) * (max_cells + 1) * (max_cells + 1);
+  nodes_.reserve(max_nodes);
+  weights_.reserve(max_nodes);
+  sums_.reserve(max_nodes);
+  are_known_.reserve(max_nodes);
+  constexpr std::size_t all_cells = std::size_t{max_cells} * max_cells * max_cells;
   terms_.reserve(all_cells);
   first_nodes_.reserve(all_cells);
 }
@@ -43,12 +43,12 @@ void MotionField::start(const std::vector<Vector3d>& points, const Vector3d& low
                         const Vector3d& upper) {
   lower_ = lower;
   upper_ = upper;
-  stride_ = std::max(sampled_of, 1 + points.size() / most_sampled);
+  stride_ = std::max(sampled_of, 1 + points.size() / max_sampled);
   const Vector3d extents = upper - lower;
   const double extent = extents.maxCoeff();
   const double cells = std::clamp(
       std::round(std::cbrt(static_cast<double>(points.size() / stride_) / sampled_per_cell)), 1.0,
-      double{most_cells});
+      double{max_cells});
   // Cells are cubes: a flat scene has one layer of them.
   cells_per_meter_ = extent > 0.0 ? cells / extent : 1.0;
   std::size_t cell_count = 1;
@@ -108,7 +108,7 @@ void MotionField::correct(const std::vector<Vector3d>& before, const std::vector
       sums_[at] += weight * off;
     }
   }
-  const double least = std::min(least_weight, *std::max_element(weights_.begin(), weights_.end()));
+  const double least = std::min(min_weight, *std::max_element(weights_.begin(), weights_.end()));
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     are_known_[i] = weights_[i] >= least ? 1 : 0;
     if (are_known_[i] != 0) {

@@ -51,7 +51,7 @@ class MotionField {
   std::size_t memory_bytes() const;
 
  private:
-  static constexpr std::uint32_t most_cells = 8;  // along an axis
+  static constexpr std::uint32_t max_cells = 8;  // along an axis
 
   /// The terms of a cell by powers of the place in it: bit a of their index is that of axis a.
   using Terms = std::array<Eigen::Vector3d, 8>;

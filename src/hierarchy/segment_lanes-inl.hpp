@@ -16,7 +16,7 @@ HWY_BEFORE_NAMESPACE();
 namespace fiber {
 namespace HWY_NAMESPACE {
 
-static_assert(most_lanes == run_width, "the lanes of a register hold a run");
+static_assert(max_lanes == run_width, "the lanes of a register hold a run");
 
 HWY_INLINE Lanes load(const float (&values)[run_width], std::size_t lane) {
   return hn::Load(Floats(), values + lane);

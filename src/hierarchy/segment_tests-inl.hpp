@@ -21,8 +21,8 @@ constexpr float relative_padding = 0x1p-19F;
 constexpr float min_padding = 0x1p-60F;
 
 /// At most eight lanes, fewer where the machine has no more.
-constexpr std::size_t most_lanes = 8;
-using Floats = hn::CappedTag<float, most_lanes>;
+constexpr std::size_t max_lanes = 8;
+using Floats = hn::CappedTag<float, max_lanes>;
 using Lanes = hn::Vec<Floats>;
 using LaneMask = hn::Mask<Floats>;
 

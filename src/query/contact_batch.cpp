@@ -136,13 +136,13 @@ ContactBatch::Found ContactBatch::collect(const RunTreeView& a, const RunTreeVie
 }
 
 SearchSize ContactBatch::estimate(const RunTreeView& tree, const NarrowPhase& test, double bound,
-                                  double most_pairs, bool prunes) {
-  constexpr std::uint32_t least_groups = 32;  // a larger part tells more than costs need
-  constexpr std::uint32_t most_groups = 96;
+                                  double max_pairs, bool prunes) {
+  constexpr std::uint32_t min_groups = 32;  // a larger part tells more than costs need
+  constexpr std::uint32_t max_groups = 96;
   constexpr std::uint32_t part = 64;
-  constexpr double most_counted = 1U << 18U;
+  constexpr double max_counted = 1U << 18U;
   const std::uint32_t groups = tree.group_count();
-  const std::uint32_t wanted = std::clamp(groups / part, least_groups, most_groups);
+  const std::uint32_t wanted = std::clamp(groups / part, min_groups, max_groups);
   const std::uint32_t stride = std::max(1U, groups / wanted);
   const std::uint32_t first = stride / 2;
   const std::uint32_t searched = groups <= first ? 0 : (groups - first + stride - 1) / stride;
@@ -151,7 +151,7 @@ SearchSize ContactBatch::estimate(const RunTreeView& tree, const NarrowPhase& te
   }
   const double scale = static_cast<double>(groups) / searched;
   QueryLimits limits{QueryOptions()};
-  limits.pairs = static_cast<std::uint64_t>(std::min(most_counted, most_pairs / scale));
+  limits.pairs = static_cast<std::uint64_t>(std::min(max_counted, max_pairs / scale));
   CandidateCount count(limits);
   jobs_.resize(std::max<std::size_t>(jobs_.size(), searched));
   for_each_of(searched, [&](std::size_t index) {

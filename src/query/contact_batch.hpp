@@ -37,9 +37,9 @@ class ContactBatch {
 
   /// The size of a search of a tree with itself within a bound [m], by a part of it: some groups of
   /// segments, spread over all. Pairs that the whole search would come upon, left-out ones apart;
-  /// it ends where they are more than `most_pairs`, or a great many.
+  /// it ends where they are more than `max_pairs`, or a great many.
   SearchSize estimate(const RunTreeView& tree, const NarrowPhase& test, double bound,
-                      double most_pairs, bool prunes);
+                      double max_pairs, bool prunes);
 
   /// Reuses candidates of a tree with itself that were collected before: those of dirty
   /// segments are left out and looked for anew.

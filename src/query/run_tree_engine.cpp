@@ -223,8 +223,8 @@ bool RunTreeEngine::find_own(const FiberAssembly& fibers, const NarrowPhase& tes
   with_batch([&](ContactBatch& batch) {
     // Which pairs a length leaves out changes as fibres stretch: such candidates cannot be kept.
     if (options.neighbour_skip_length.value_or(0.0) == 0.0) {
-      const auto estimate = [&](double skin, double most_pairs) {
-        return batch.estimate(tree_.view(), test, options.margin + skin, most_pairs, skin == 0.0);
+      const auto estimate = [&](double skin, double max_pairs) {
+        return batch.estimate(tree_.view(), test, options.margin + skin, max_pairs, skin == 0.0);
       };
       skin_.decide(fibers, std::cref(estimate));  // which allocates nothing
       is_found = skin_.keeps_pairs() && moved_.leaves(skin_.skin(), options.margin) &&
@@ -241,7 +241,7 @@ bool RunTreeEngine::find_kept(const NarrowPhase& test, const QueryOptions& optio
                               const QueryLimits& limits, ContactBatch& batch,
                               QueryResult& result) const {
   QueryLimits kept = limits;
-  kept.pairs = std::min(limits.pairs, skin_.most_pairs());
+  kept.pairs = std::min(limits.pairs, skin_.max_pairs());
   const Candidates candidates = current_candidates(test, options, kept, batch, result.counts);
   if (candidates.found == ContactBatch::Found::TOO_MANY) {
     skin_.give_up();

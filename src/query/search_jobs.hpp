@@ -118,9 +118,9 @@ class SearchJobs {
   template <class Execute, class Find>
   bool search_together(Part& whole, std::uint32_t begin, std::uint32_t end, std::uint32_t least,
                        const Execute& execute, const Find& find) {
-    const std::uint32_t pieces = std::max(least, (end - begin + most_jobs - 1) / most_jobs);
+    const std::uint32_t pieces = std::max(least, (end - begin + max_jobs - 1) / max_jobs);
     const std::uint32_t jobs = (end - begin + pieces - 1) / pieces;
-    if (jobs < least_jobs) {
+    if (jobs < min_jobs) {
       return false;
     }
     for (std::uint32_t index = 0; index < jobs; ++index) {
@@ -149,11 +149,11 @@ class SearchJobs {
     QueryResult result;
     std::optional<Part> part;
   };
-  static constexpr std::uint32_t least_jobs = 4;  // fewer are not worth waking threads
+  static constexpr std::uint32_t min_jobs = 4;  // fewer are not worth waking threads
   // Each finds what it needs anew: more would take more time and memory for that.
-  static constexpr std::uint32_t most_jobs = 64;
+  static constexpr std::uint32_t max_jobs = 64;
 
-  std::array<Job, most_jobs> jobs_;  // of a round
+  std::array<Job, max_jobs> jobs_;  // of a round
 };
 
 }  // namespace fiber

@@ -21,10 +21,10 @@ class JobSink final : public CollectorSink {
 
 void ShrinkingSearch::find(const RunTreeView& a, const RunTreeView& b, const Approach& approach,
                            tbb::task_arena& arena, PairCollector& whole, QueryResult& result) {
-  constexpr std::uint32_t least_groups = 4;  // of a job
+  constexpr std::uint32_t min_groups = 4;  // of a job
   CollectorSink sink(whole, approach);
   jobs_.search(
-      whole, a.group_count(), least_groups, least_groups,
+      whole, a.group_count(), min_groups, min_groups,
       [&](const auto& work) { arena.execute(work); },
       [&](SearchJob<PairCollector>& job, std::uint32_t begin, std::uint32_t end) {
         JobSink job_sink(job, approach);

@@ -21,21 +21,21 @@ constexpr double find_ns = 163.0;    // a pair that a search comes upon, its sor
 constexpr double judge_ns = 41.0;    // a pair
 
 constexpr double first_frames = 4.0;  // that the first skin thought of lasts for
-constexpr double least_frames = 3.0;  // one that serves a single frame more has too little to win
-constexpr double most_frames = 4096.0;
+constexpr double min_frames = 3.0;    // one that serves a single frame more has too little to win
+constexpr double max_frames = 4096.0;
 constexpr double reserve = 1.05;             // by which points may move more than they did
 constexpr double step = 1.5;                 // from one skin that is thought of to the next
-constexpr double least_skin = 1e-150;        // [m]
+constexpr double min_skin = 1e-150;          // [m]
 constexpr std::uint32_t longest_wait = 256;  // [frames]
 constexpr std::uint32_t longest_kept = 8;    // [stretches]
 
 // A skin must save this part of a frame, as costs are estimates.
-constexpr double least_gain = 0.05;
+constexpr double min_gain = 0.05;
 
 // The part of the segments by whose motion the skin goes. The others may be looked for anew alone
 // (RunTreeEngine::most_still_serve).
 constexpr double followed_part = 0.75;
-constexpr std::size_t most_sampled = 1024;  // fibres
+constexpr std::size_t max_sampled = 1024;  // fibres
 
 double checked(const std::optional<double>& skin) {
   if (skin && !(*skin >= 0.0 && std::isfinite(*skin))) {
@@ -53,7 +53,7 @@ SkinChoice::SkinChoice(const std::optional<double>& fixed)
 void SkinChoice::start() {
   frames_ = 0;
   if (is_automatic_) {
-    sample_.reserve(most_sampled + 1);
+    sample_.reserve(max_sampled + 1);
     do_without();
     wait_ = 1;
     next_wait_ = 2;
@@ -118,13 +118,13 @@ void SkinChoice::decide(const FiberAssembly& fibers, const Estimate& estimate) {
 void SkinChoice::choose(const FiberAssembly& fibers, const Estimate& estimate) {
   double best = 0.0;
   double taken = 0.0;  // [ns] by this
-  const auto size_of = [&](double skin, double most_pairs) {
-    const SearchSize search = estimate(skin, most_pairs);
+  const auto size_of = [&](double skin, double max_pairs) {
+    const SearchSize search = estimate(skin, max_pairs);
     taken += search.part * (overlap_ns * search.overlaps + find_ns * search.pairs);
     return search;
   };
   const double without = cost(0.0, fibers, size_of(0.0, std::numeric_limits<double>::infinity()));
-  double least = (1.0 - least_gain) * without;
+  double least = (1.0 - min_gain) * without;
   const auto is_better = [&](double frames) {
     // A skin of more pairs costs more, whatever else there is.
     const double of_none = cost(frames, fibers, {});
@@ -139,17 +139,17 @@ void SkinChoice::choose(const FiberAssembly& fibers, const Estimate& estimate) {
     }
     least = now;
     best = frames;
-    most_pairs_ = static_cast<std::uint64_t>(4.0 * search.pairs) + (1U << 16U);
+    max_pairs_ = static_cast<std::uint64_t>(4.0 * search.pairs) + (1U << 16U);
     return true;
   };
   // Up from the last one while that is better; or else down, until it is worse again.
   const double begin = last_frames_;
   double frames = begin;
-  while (frames <= most_frames && is_better(frames)) {
+  while (frames <= max_frames && is_better(frames)) {
     frames = std::round(frames * step);
   }
   frames = std::round(begin / step);
-  while (best <= begin && frames >= least_frames && (is_better(frames) || best == 0.0)) {
+  while (best <= begin && frames >= min_frames && (is_better(frames) || best == 0.0)) {
     frames = std::round(frames / step);
   }
   // Where there is little to search, a choice takes as much as some searches do.
@@ -166,7 +166,7 @@ void SkinChoice::choose(const FiberAssembly& fibers, const Estimate& estimate) {
 /// [m] The tree is fitted in the first of the frames. Two points may come towards each other. Those
 /// that stand still are measured by more than nothing.
 double SkinChoice::skin_of(double frames) const {
-  return std::max(least_skin, 2.0 * reserve * (frames - 1.0) * motion_);
+  return std::max(min_skin, 2.0 * reserve * (frames - 1.0) * motion_);
 }
 
 /// Takes the skin that is meant to last for so many frames.
@@ -195,7 +195,7 @@ double SkinChoice::cost(double frames, const FiberAssembly& fibers,
 double SkinChoice::motion_of_most(const FiberAssembly& fibers, const std::vector<double>& moved) {
   sample_.clear();
   double left = 0.0;  // points
-  const std::size_t stride = 1 + fibers.fiber_count() / most_sampled;
+  const std::size_t stride = 1 + fibers.fiber_count() / max_sampled;
   for (std::size_t fiber = 0; fiber < fibers.fiber_count(); fiber += stride) {
     const std::uint32_t points = fibers.offsets()[fiber + 1] - fibers.offsets()[fiber];
     sample_.emplace_back(moved[fiber], points);

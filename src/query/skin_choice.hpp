@@ -37,7 +37,7 @@ class SkinChoice {
  public:
   /// The size of a search, estimated, for pairs up to so much [m] beyond the margin. It may end
   /// where there are more than so many.
-  using Estimate = std::function<SearchSize(double skin, double most_pairs)>;
+  using Estimate = std::function<SearchSize(double skin, double max_pairs)>;
 
   /// @param fixed [m] what the user has chosen; none: it chooses itself
   /// @throws std::invalid_argument if it is negative or not finite
@@ -54,7 +54,7 @@ class SkinChoice {
   bool keeps_pairs() const { return pays_ && !are_too_many_; }
 
   /// More than so many pairs are not kept: those estimated were far fewer.
-  std::uint64_t most_pairs() const { return most_pairs_; }
+  std::uint64_t max_pairs() const { return max_pairs_; }
 
   /// Whether the next update is to know how far points have moved since this fit.
   bool asks_for_motion() const { return skin_ > 0.0 || is_due_ || (is_automatic_ && wait_ == 0); }
@@ -98,7 +98,7 @@ class SkinChoice {
   std::atomic<bool> are_too_many_{false};
   double skin_;  // [m]
   bool pays_;    // pairs are kept
-  std::uint64_t most_pairs_ = std::numeric_limits<std::uint64_t>::max();
+  std::uint64_t max_pairs_ = std::numeric_limits<std::uint64_t>::max();
   bool is_due_ = false;
   double motion_ = 0.0;  // [m] a frame
   double motion_too_fast_ =

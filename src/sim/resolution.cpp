@@ -28,7 +28,7 @@ std::uint32_t segments_for(double accuracy, double turning, double limpness) {
   require_accuracy(accuracy);
   require_not_negative("turning", turning, " rad");
   require(limpness >= 0.0, "limpness", limpness, "", "at least 0");
-  const double swing = std::min(ResolutionTable::swing * limpness, ResolutionTable::most_swing);
+  const double swing = std::min(ResolutionTable::swing * limpness, ResolutionTable::max_swing);
   return whole(std::max(std::sqrt(std::max(ResolutionTable::bending, swing / half) / accuracy),
                         turning * std::sqrt(ResolutionTable::turning / accuracy)));
 }

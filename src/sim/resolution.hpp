@@ -21,10 +21,10 @@ struct ResolutionTable {
   /// The place of the tip of a cable that is let go at 45° from a pin, straight and at rest, in
   /// parts of its length, for 0.6 of the period T of its slowest swing (1 s for a metre that hangs
   /// by its weight). Of n segments it is off by at most swing · limpness / n², but by no more than
-  /// most_swing / n², in steps of implicit Euler by euler · step / T, in steps of BDF2 by bdf2 ·
+  /// max_swing / n², in steps of implicit Euler by euler · step / T, in steps of BDF2 by bdf2 ·
   /// (step / T)².
   static constexpr double swing = 0.48;
-  static constexpr double most_swing = 20.0;
+  static constexpr double max_swing = 20.0;
   static constexpr double euler = 22.0;
   static constexpr double bdf2 = 900.0;
 

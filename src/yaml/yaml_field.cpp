@@ -18,7 +18,7 @@ namespace fiber {
 namespace {
 
 constexpr std::uint64_t max_values_per_byte = 10;
-constexpr std::size_t largest_file = 100'000'000;  // [byte]
+constexpr std::size_t max_file_size = 100'000'000;  // [byte]
 
 /// Counts the values of a document with its aliases written out, without writing them out: those of
 /// aliases of aliases multiply.
@@ -244,9 +244,9 @@ YamlField load_yaml(const std::string& file) {
   }
   std::string text;
   for (std::array<char, 65'536> chunk{}; stream; text.append(chunk.data(), stream.gcount())) {
-    if (text.size() > largest_file) {
+    if (text.size() > max_file_size) {
       throw std::invalid_argument("file " + quote(file) + ": it may have at most " +
-                                  std::to_string(largest_file) + " bytes");
+                                  std::to_string(max_file_size) + " bytes");
     }
     stream.read(chunk.data(), chunk.size());
   }

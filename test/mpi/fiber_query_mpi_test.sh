@@ -12,16 +12,16 @@ for options in "soup.csv --margin 0.002" "tress.csv --margin 0.0005" \
   # shellcheck disable=SC2086  # several options
   "$tools/fiber_query" contacts $options >expected.csv
   [ "$(wc -l <expected.csv)" -gt 10 ] || fail "hardly any contacts of $options"
-  for ranks in 1 2 4; do
+  for ranks in 1 4; do
     # shellcheck disable=SC2086
     "${mpiexec[@]}" "$ranks" "$tools/fiber_query_mpi" contacts $options --out found.csv
     cmp expected.csv found.csv || fail "$ranks ranks find something else of $options"
     [ ! -e found.csv.part ] || fail "a part is left"
     rm found.csv
-    # shellcheck disable=SC2086
-    "${mpiexec[@]}" "$ranks" "$tools/fiber_query_mpi" contacts $options | cmp expected.csv - ||
-      fail "$ranks ranks write something else of $options"
   done
+  # shellcheck disable=SC2086
+  "${mpiexec[@]}" 2 "$tools/fiber_query_mpi" contacts $options | cmp expected.csv - ||
+    fail "2 ranks write something else of $options"
 done
 
 # ask RANKS ARGUMENT...: fiber_query_mpi on so many ranks.
@@ -39,7 +39,7 @@ for options in "closest soup.csv" "closest tress.csv --neighbour-skip 3" "closes
   "closest far.csv --margin 1"; do
   # shellcheck disable=SC2086  # several options
   "$tools/fiber_query" $options >expected.txt
-  for ranks in 1 2 3; do
+  for ranks in 2 3; do
     # shellcheck disable=SC2086
     ask "$ranks" $options --out found.txt
     cmp expected.txt found.txt || fail "$ranks ranks find something else: $options"
@@ -69,7 +69,7 @@ for options in "--margin 0.0003" "--margin 0.0003 --new-only --neighbour-skip 2"
   "$tools/fiber_query" sweep frames.csv $options >expected.csv 2>error.txt
   grep -q "frames 2 and 3 have different fibres" error.txt || fail "all frames have the same fibres"
   [ "$(wc -l <expected.csv)" -gt 1 ] || fail "no contact between frames: $options"
-  for ranks in 1 2 3; do
+  for ranks in 2 3; do
     # shellcheck disable=SC2086
     ask "$ranks" sweep frames.csv $options --out found.csv 2>error.txt
     cmp expected.csv found.csv || fail "$ranks ranks find something else between frames: $options"
@@ -106,7 +106,7 @@ for query in "contacts --margin 0.02" "contacts --margin 0.02 --format json" "fi
   "$tools/fiber_query" "$command" named.csv "$@" >expected.txt 2>told.txt
   grep -q 'a, .*long' expected.txt || fail "names are not those of the file: $query"
   "$tools/fiber_query" "$command" again.csv "$@" 2>error.txt | cmp expected.txt - || fail "HDF5 has lost something: $query"
-  for ranks in 1 2 3; do
+  for ranks in 2 3; do
     for file in named.csv named.h5; do
       ask "$ranks" "$command" "$file" "$@" --out found.txt 2>error.txt
       cmp expected.txt found.txt || fail "$ranks ranks name something else in $file: $query"

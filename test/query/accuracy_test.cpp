@@ -155,7 +155,7 @@ TEST_P(AccuracyTest, BoundsOfAllButTheClosestHoldTheTruth) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Engines, AccuracyTest, all_engines(), name_of_engine);
+INSTANTIATE_TEST_SUITE_P(Engines, AccuracyTest, engines_of_each_kind(), name_of_engine);
 
 TEST(QueryOptions, RefuseWhatIsNoAccuracy) {
   const double bad[] = {-1.0, infinity, std::nan("")};

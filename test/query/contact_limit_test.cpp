@@ -174,7 +174,7 @@ TEST_P(ContactLimitTest, FewMoreThanTheLimitAreInMemory) {
   EXPECT_LT(found.contacts.capacity(), 2 * (2 * options.contact_limit + of_one_round + 2000));
 }
 
-INSTANTIATE_TEST_SUITE_P(Engines, ContactLimitTest, all_engines(), name_of_engine);
+INSTANTIATE_TEST_SUITE_P(Engines, ContactLimitTest, engines_of_each_kind(), name_of_engine);
 
 TEST_P(PairLimitTest, AQueryEndsAfterSoManyPairsWithWhatItHasFound) {
   SCOPED_TRACE(seed_message());
@@ -237,7 +237,7 @@ TEST_P(PairLimitTest, HoldsForShapesToo) {
   EXPECT_FALSE(result.limit_reached);
 }
 
-INSTANTIATE_TEST_SUITE_P(Engines, PairLimitTest, all_engines(), name_of_engine);
+INSTANTIATE_TEST_SUITE_P(Engines, PairLimitTest, engines_of_each_kind(), name_of_engine);
 
 TEST(BruteForcePairLimit, CountsEachPair) {
   SCOPED_TRACE(seed_message());

@@ -67,7 +67,7 @@ TEST_P(DeadlineTest, ADeadlineHoldsForShapesToo) {
   EXPECT_TRUE(answer(*engine, shape, options).complete);
 }
 
-INSTANTIATE_TEST_SUITE_P(Engines, DeadlineTest, all_engines(), name_of_engine);
+INSTANTIATE_TEST_SUITE_P(Engines, DeadlineTest, engines_of_each_kind(), name_of_engine);
 
 TEST(RunTreeDeadline, ADeadlineCutsOffCandidatesThatWereKept) {
   SCOPED_TRACE(seed_message());

@@ -191,7 +191,7 @@ TEST_P(FiberGraphTest, AFiberThatIsCutAndJoinedAnswersAsTheWholeOne) {
   expect_enough(contacts, std::size_t{1000});
 }
 
-INSTANTIATE_TEST_SUITE_P(Engines, FiberGraphTest, all_engines(), name_of_engine);
+INSTANTIATE_TEST_SUITE_P(Engines, FiberGraphTest, engines_of_each_kind(), name_of_engine);
 
 }  // namespace
 }  // namespace fiber::test

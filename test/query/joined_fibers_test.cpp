@@ -132,7 +132,7 @@ TEST_P(JoinedFibersTest, ATreeWhoseBranchesDoNotMeetHasNoContacts) {
   EXPECT_GT(ask(apart, within(0.0)).contacts.size(), 80U);
 }
 
-INSTANTIATE_TEST_SUITE_P(Engines, JoinedFibersTest, all_engines(), name_of_engine);
+INSTANTIATE_TEST_SUITE_P(Engines, JoinedFibersTest, engines_of_each_kind(), name_of_engine);
 
 /// Candidates that are kept are those of what was joined.
 TEST(JoinedFibers, OtherJointsOfTheSamePointsAreSeen) {

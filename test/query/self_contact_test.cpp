@@ -129,7 +129,7 @@ TEST_P(SelfContactTest, ExplicitNeighbourSkipsNeedNoLoop) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Engines, SelfContactTest, all_engines(), name_of_engine);
+INSTANTIATE_TEST_SUITE_P(Engines, SelfContactTest, engines_of_each_kind(), name_of_engine);
 
 TEST(SelfContact, LongCablesWithoutALoopHaveNone) {
   SCOPED_TRACE(seed_message());

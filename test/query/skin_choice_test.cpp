@@ -40,9 +40,9 @@ class Frames {
     if (choice_.asks_for_motion()) {
       motion_.start(fibers_, Vector3d::Constant(-10.0), Vector3d::Constant(10.0));
     }
-    choice_.decide(fibers_, [&](double skin, double most_pairs) {
+    choice_.decide(fibers_, [&](double skin, double max_pairs) {
       ++estimates_;
-      return estimate(skin, most_pairs);
+      return estimate(skin, max_pairs);
     });
   }
 
@@ -65,7 +65,7 @@ class Frames {
 };
 
 /// The search of a dense scene: a skin of a millimetre has a hundred times as many pairs as none.
-SearchSize dense(double skin, double /*most_pairs*/) { return {1000.0, 100.0 + 1e7 * skin, 1.0}; }
+SearchSize dense(double skin, double /*max_pairs*/) { return {1000.0, 100.0 + 1e7 * skin, 1.0}; }
 
 TEST(SkinChoiceTest, NoneIsLookedForWhilePointsMoveAsFastAsWhereNonePaid) {
   Frames frames;
@@ -98,7 +98,7 @@ TEST(SkinChoiceTest, OneIsTakenInTheEndWherePairsHaveBecomeFew) {
   EXPECT_EQ(frames.choice().skin(), 0.0);
   int with_a_skin = 0;
   for (int i = 0; i < 800; ++i) {
-    frames.next(1e-4, [](double /*skin*/, double /*most_pairs*/) {
+    frames.next(1e-4, [](double /*skin*/, double /*max_pairs*/) {
       return SearchSize{1000.0, 100.0, 1.0};
     });
     with_a_skin += frames.choice().skin() > 0.0 ? 1 : 0;
@@ -112,14 +112,14 @@ TEST(SkinChoiceTest, EstimatesMayEndWhereSoManyPairsCannotPay) {
     Frames frames;
     int asked = 0;
     for (int i = 0; i < 10; ++i) {
-      frames.next(1e-3, [&](double skin, double most_pairs) {
+      frames.next(1e-3, [&](double skin, double max_pairs) {
         if (skin == 0.0) {
           return SearchSize{1000.0, 100.0, 0.1};
         }
         ++asked;
-        EXPECT_TRUE(std::isfinite(most_pairs));
-        EXPECT_GT(most_pairs, 0.0);
-        return SearchSize{0.0, share * most_pairs, 0.1};
+        EXPECT_TRUE(std::isfinite(max_pairs));
+        EXPECT_GT(max_pairs, 0.0);
+        return SearchSize{0.0, share * max_pairs, 0.1};
       });
     }
     EXPECT_GT(asked, 0);

@@ -116,7 +116,7 @@ TEST_P(TiesTest, ThoseOfTheSmallestIndicesAreReported) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Engines, TiesTest, all_engines(), name_of_engine);
+INSTANTIATE_TEST_SUITE_P(Engines, TiesTest, engines_of_each_kind(), name_of_engine);
 
 /// Pairs that run_tree measures to find the closest.
 std::uint64_t tests_for_closest(const FiberAssembly& fibers, double tolerance = 0.0) {

@@ -94,7 +94,7 @@ TEST_P(ToleranceTest, EveryPairOfFibersIsWithinTheTolerance) {
   });
 }
 
-INSTANTIATE_TEST_SUITE_P(Engines, ToleranceTest, all_engines(), name_of_engine);
+INSTANTIATE_TEST_SUITE_P(Engines, ToleranceTest, engines_of_each_kind(), name_of_engine);
 
 }  // namespace
 }  // namespace fiber::test

@@ -335,8 +335,8 @@ roslaunch_add_file_check(../launch/with_tracker.launch frame:=world
 roslaunch_add_file_check(../launch/bag.launch bag:=/tmp/any.bag frame:=world
   config:=${PROJECT_SOURCE_DIR}/config/trackdlo.yaml)
 
-fiber_proximity_graph_tests(node_test fiber_player_test cable_sim_test input_node_test
-  answer_text_node_test environment_node_test environment_services_test)
+fiber_proximity_graph_tests(node_test fiber_player_test cable_sim_test failing_cable_sim input_node_test
+  answer_text_node_test environment_node_test environment_services_test latency_node_test uncertainty_node_test)
 
 # No sanitizer looks at nodes: the C library fills the memory that they free. What is read there then is wrong in each
 # run, and not in one of a hundred.

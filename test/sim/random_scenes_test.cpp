@@ -29,7 +29,7 @@ constexpr double inner_share = 0.9;  // of the sum of radii, in which no axes co
 
 /// The least distance of two axes over the sum of radii, and of an axis from the table over its
 /// radius; among all pairs of segments that may touch.
-double least_share(const Rods& rods, bool has_table) {
+double min_share(const Rods& rods, bool has_table) {
   double least = 1.0;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;  // first node, rod
   for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
@@ -74,7 +74,7 @@ TEST(RandomScenes, KeepApartBalanceAndGainNoEnergy) {
     const double before = energy_at_start(scene.effects, scene.rods, scene.step);
     const double scale = std::abs(before) + mass * standard_gravity * 1.5;
     const bool is_driven = scene.is_windy || scene.is_inextensible;
-    const double start = least_share(scene.rods, scene.has_table);
+    const double start = min_share(scene.rods, scene.has_table);
     // Only of implicit Euler on one thread does the path tell the way of a step, which is not
     // straight.
     scene.options.threads = 1;
@@ -89,7 +89,7 @@ TEST(RandomScenes, KeepApartBalanceAndGainNoEnergy) {
       stepper.step(scene.step);
       const StepReport& report = stepper.report();
       unbalanced_here += report.unbalanced > 0 ? 1 : 0;
-      const double share = least_share(stepper.rods(), scene.has_table);
+      const double share = min_share(stepper.rods(), scene.has_table);
       std::ostringstream told;
       if (!all_finite(stepper.rods())) {
         told << "numbers that are not finite";

@@ -45,6 +45,10 @@ class EnginesTest : public testing::TestWithParam<std::string> {
 
 /// Parameters of tests of all engines, and their names.
 inline auto all_engines() { return testing::ValuesIn(with_cuda_tree(all_engine_names())); }
+/// Those of tests about kernels, bounds, limits and loops, which no volume has a part in.
+inline auto engines_of_each_kind() {
+  return testing::ValuesIn(with_cuda_tree(engine_names_of_each_kind()));
+}
 inline std::string name_of_engine(const testing::TestParamInfo<std::string>& engine) {
   return test_name(engine.param);
 }

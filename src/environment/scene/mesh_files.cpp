@@ -225,9 +225,10 @@ std::string read_bytes(const path& file) {
     throw std::invalid_argument("there is no file " + quote(file.string()));
   }
   const std::uintmax_t size = std::filesystem::file_size(file);
-  if (size > largest_mesh_file) {
+  if (size > max_mesh_file_size) {
     throw std::invalid_argument("the file has " + std::to_string(size) +
-                                " bytes, it may have at most " + std::to_string(largest_mesh_file));
+                                " bytes, it may have at most " +
+                                std::to_string(max_mesh_file_size));
   }
   std::string bytes(size, '\0');
   std::ifstream stream(file, std::ios::binary);

@@ -74,10 +74,10 @@ FiberCost cost_of(const fiber::FiberAssembly& fibers, fiber::QueryOptions option
 bool InputBudget::is_to_be_tried(const fiber::FiberAssembly& fibers) const {
   const std::size_t count = fibers.segment_count();
   // Fewer segments cannot have so many pairs, or take so long.
-  const std::size_t most_pairs = count * count / 2;
-  const bool may_be_many = limits_.max_pairs > 0 && most_pairs > std::size_t{limits_.max_pairs};
+  const std::size_t all_pairs = count * count / 2;
+  const bool may_be_many = limits_.max_pairs > 0 && all_pairs > std::size_t{limits_.max_pairs};
   const bool may_be_slow = limits_.max_time > 0.0 &&
-                           seconds_for_pair * static_cast<double>(most_pairs) > limits_.max_time;
+                           seconds_for_pair * static_cast<double>(all_pairs) > limits_.max_time;
   return (may_be_many || may_be_slow) && count > 2 * passed_segments_;
 }
 

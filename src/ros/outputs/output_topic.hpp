@@ -32,8 +32,8 @@ class OutputTopic {
   Message& message() {
     if (message_ == nullptr) {
       // Whoever keeps more of them than this may have them.
-      constexpr std::size_t most_shared = 8;
-      if (messages_.size() == most_shared) {
+      constexpr std::size_t max_shared = 8;
+      if (messages_.size() == max_shared) {
         messages_.clear();
       }
       message_ = messages_.take();

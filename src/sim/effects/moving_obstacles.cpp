@@ -69,8 +69,8 @@ std::vector<EnvironmentObject> ObstacleMotions::placed() const {
 }
 
 std::optional<ObstacleLag> ObstacleMotions::longest_lag(double time) const {
-  constexpr double least_angle = 1e-6;      // [rad]
-  constexpr double least_distance = 1e-12;  // [m] more than rounding
+  constexpr double min_angle = 1e-6;      // [rad]
+  constexpr double min_distance = 1e-12;  // [m] more than rounding
   std::optional<ObstacleLag> longest;
   for (std::size_t i = 0; i < obstacles_.size(); ++i) {
     const Isometry3d wanted = obstacles_[i].placement(time);
@@ -81,7 +81,7 @@ std::optional<ObstacleLag> ObstacleMotions::longest_lag(double time) const {
     }
     const bool is_longer = !longest || distance > longest->distance ||
                            (distance == longest->distance && turn.angle() > longest->angle);
-    if ((distance > least_distance || turn.angle() > least_angle) && is_longer) {
+    if ((distance > min_distance || turn.angle() > min_angle) && is_longer) {
       longest = {static_cast<std::uint32_t>(i), distance, turn.angle()};
     }
   }

@@ -78,8 +78,8 @@ NodesAt nodes_at(const std::vector<double>& shares, std::int64_t segments,
                  const RigidShares& rigid) {
   const std::int64_t edges = segments - static_cast<std::int64_t>(rigid.size());
   const double rest = rest_of(rigid);
-  constexpr double least_rest = 1e-6;  // below, its segments are hardly longer than rounding
-  if (edges > 0 && rest < least_rest) {
+  constexpr double min_rest = 1e-6;  // below, its segments are hardly longer than rounding
+  if (edges > 0 && rest < min_rest) {
     throw std::invalid_argument(format("its rigid sections leave ", std::max(0.0, rest),
                                        " of its length to ", edges, " of its ", segments,
                                        " segments: each of them is one segment"));

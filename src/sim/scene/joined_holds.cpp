@@ -120,7 +120,7 @@ class JoinedFibers {
   }
 
   /// The least by which holds stretch fibres, in parts of their length.
-  double least_strain(const Holds& holds, double time, double allowed) const {
+  double min_strain(const Holds& holds, double time, double allowed) const {
     double low = allowed;
     double high = 2.0 * (1.0 + allowed) - 1.0;
     while (are_torn(holds, time, 1.0 + high) && high < 1e9) {
@@ -213,7 +213,7 @@ void require_holds_in_reach(const SimDescription& scene) {
       throw std::invalid_argument(
           format(fibers.worst_place(holds, time, stretch), ": at ", time, " s, what holds ",
                  names_of(holds, scene, time), " stretches the fibres between by ",
-                 percent(fibers.least_strain(holds, time, scene.max_strain)),
+                 percent(fibers.min_strain(holds, time, scene.max_strain)),
                  " % at least, more than ", 100.0 * scene.max_strain, " % (max_strain)"));
     }
   }

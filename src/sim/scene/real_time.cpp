@@ -132,10 +132,10 @@ double thread_time() {
 }  // namespace
 
 RealTimeChoice choose_for_real_time(const RealTimeScene& scene) {
-  constexpr double near = 0.1;           // of the aim, relative, as long as the budget lasts
-  constexpr double near_enough = 0.2;    // beyond it
-  constexpr double max_growth = 6.0;     // of the share, from a measurement to the next
-  constexpr double least_budget = 0.25;  // [s] that a measurement is worth
+  constexpr double near = 0.1;         // of the aim, relative, as long as the budget lasts
+  constexpr double near_enough = 0.2;  // beyond it
+  constexpr double max_growth = 6.0;   // of the share, from a measurement to the next
+  constexpr double min_budget = 0.25;  // [s] that a measurement is worth
   constexpr int max_measurements = 10;
   constexpr int max_confirmed = 3;  // beyond the budget
   double used = 0.0;
@@ -156,7 +156,7 @@ RealTimeChoice choose_for_real_time(const RealTimeScene& scene) {
       in_time = best;
     }
     const double off = std::abs(best.share / aimed_share - 1.0);
-    const bool is_searching = used <= trial_budget - least_budget && i < max_measurements;
+    const bool is_searching = used <= trial_budget - min_budget && i < max_measurements;
     if (off <= (is_searching ? near : near_enough) ||
         (!is_searching && ++confirmed > max_confirmed)) {
       break;

@@ -15,7 +15,7 @@ using Eigen::VectorXd;
 using Ends = std::vector<Vector3d>;
 
 /// Lengths below that part of the ropes' length count as rounding.
-constexpr double least_share = 1e-9;
+constexpr double min_share = 1e-9;
 
 class Energy {
  public:
@@ -84,7 +84,7 @@ class Energy {
       tension += stiffness_[i] * by;
     }
     return work > left_over * (total_length_ + box.diagonal().norm()) +
-                      least_share * total_length_ * tension;
+                      min_share * total_length_ * tension;
   }
 
   /// Newton's step. What no rope pulls at stays where it is.
@@ -154,9 +154,9 @@ class Energy {
 }  // namespace
 
 std::vector<double> tearing_tensions(const RopeNet& net, Ends ends) {
-  constexpr int most_iterations = 100;
+  constexpr int max_iterations = 100;
   const Energy energy(net);
-  for (int i = 0; i < most_iterations; ++i) {
+  for (int i = 0; i < max_iterations; ++i) {
     const double before = energy.value(ends);
     if (before == 0.0) {
       return {};

@@ -113,7 +113,7 @@ TEST_F(MeshFiles, WhatAssimpFailsOnCostsOnlyItself) {
 
 TEST_F(MeshFiles, GiantFilesAreRefusedUnread) {
   write(path("giant.stl"), "solid");
-  std::filesystem::resize_file(path("giant.stl"), largest_mesh_file + 1);
+  std::filesystem::resize_file(path("giant.stl"), max_mesh_file_size + 1);
   EXPECT_EQ(error_of([&] { read_mesh_file(path("giant.stl"), unscaled); }),
             "the file has 100000001 bytes, it may have at most 100000000");
 }

@@ -23,7 +23,7 @@ using MeshSource = std::function<std::shared_ptr<const TriangleMesh>(const std::
 
 /// [byte] Larger files are refused unread: twice a binary STL of as many triangles as TriangleMesh
 /// takes.
-constexpr std::uintmax_t largest_mesh_file = 100'000'000;
+constexpr std::uintmax_t max_mesh_file_size = 100'000'000;
 
 /// Reads a mesh, in any format that assimp knows, in a process of its own: there are files that
 /// assimp crashes on, or does not come back from.
