@@ -41,6 +41,7 @@ add_library(fiber_proximity_ros SHARED
   src/ros/inputs/message_reader.cpp
   src/ros/inputs/missing_points.cpp
   src/ros/inputs/point_messages.cpp
+  src/ros/inputs/publishers.cpp
   src/ros/inputs/segment_welder.cpp
   src/ros/inputs/stamp_matcher.cpp
   src/ros/inputs/synchronizer.cpp

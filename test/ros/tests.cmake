@@ -35,7 +35,7 @@ if(NOT FIBER_PROXIMITY_SANITIZE)
   )
 endif()
 fiber_proximity_gtest(stamps_test
-  ros/sequence_gaps_test.cpp
+  ros/publishers_test.cpp
   ros/stamp_matcher_test.cpp
   COLD
   HEADERS graph_test_headers
@@ -175,6 +175,7 @@ add_executable(cable_sim_test EXCLUDE_FROM_ALL
 )
 add_executable(failing_cable_sim EXCLUDE_FROM_ALL ros/failing_cable_sim.cpp)
 target_link_libraries(failing_cable_sim fiber_proximity_ros fiber_proximity_options)
+fiber_proximity_compile_cold(failing_cable_sim)
 target_compile_definitions(cable_sim_test PRIVATE
   CABLE_SIM="$<TARGET_FILE:cable_sim>" FAILING_CABLE_SIM="$<TARGET_FILE:failing_cable_sim>")
 target_link_libraries(cable_sim_test
@@ -335,7 +336,7 @@ roslaunch_add_file_check(../launch/with_tracker.launch frame:=world
 roslaunch_add_file_check(../launch/bag.launch bag:=/tmp/any.bag frame:=world
   config:=${PROJECT_SOURCE_DIR}/config/trackdlo.yaml)
 
-fiber_proximity_graph_tests(node_test fiber_player_test cable_sim_test failing_cable_sim input_node_test
+fiber_proximity_graph_tests(node_test fiber_player_test cable_sim_test input_node_test
   answer_text_node_test environment_node_test environment_services_test latency_node_test uncertainty_node_test)
 
 # No sanitizer looks at nodes: the C library fills the memory that they free. What is read there then is wrong in each

@@ -7,8 +7,6 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "src/text/quote.hpp"
-
 namespace fiber_proximity_ros {
 
 Input::Input(InputOptions options, const InputTiming& timing, Worker& worker)
@@ -22,10 +20,10 @@ Input::Input(InputOptions options, const InputTiming& timing, Worker& worker)
 
 void Input::receive(const ReceivedMessage& message, FixedFrame& frame) {
   log_.receive();
-  if (message.sequence) {
-    gaps_.add(message.publisher, *message.sequence);
+  if (const std::string warning = publishers_.add(message.publisher, message.sequence);
+      !warning.empty()) {
+    log_.remark(warning);
   }
-  watch_publishers(message.publisher);
   if (trial_.budget().is_closed()) {
     log_.refuse(trial_.budget().problem());
     return;
@@ -44,17 +42,6 @@ void Input::receive(const ReceivedMessage& message, FixedFrame& frame) {
     message.keep();
   } catch (const std::invalid_argument& error) {
     log_.refuse(error.what());
-  }
-}
-
-/// Each message is all fibres of the input: of two publishers, each takes away those of the other.
-void Input::watch_publishers(const std::string& publisher) {
-  const std::string other = turns_.add(publisher);
-  if (!other.empty()) {
-    const auto [first, second] = std::minmax(other, publisher);  // said once
-    log_.remark(
-        "messages come from " + fiber::quote(first) + " and " + fiber::quote(second) +
-        " by turns, and each replaces the fibres of the other: give them topics of their own");
   }
 }
 
@@ -109,7 +96,7 @@ void Input::accept(const ros::Time& stamp) {
     assert(!placed_.empty());
   }
   assert(placed_.front()->stamp == stamp);
-  if (staleness_ != Staleness::NONE) {
+  if (staleness_) {
     speeds_.forget();
   } else if (timing_.bounds_latency) {
     speeds_.take(*current_, *placed_.front());
@@ -118,9 +105,8 @@ void Input::accept(const ros::Time& stamp) {
   placed_.pop_front();
   has_fibers_ = true;
   log_.accept();
-  if (staleness_ != Staleness::NONE) {
-    staleness_ = Staleness::NONE;
-    stale_reason_.clear();
+  if (staleness_) {
+    staleness_.reset();
     ROS_INFO_STREAM(log_.label() << ": new messages again");
   }
 }
@@ -134,19 +120,18 @@ void Input::overtake_placed(std::size_t left) {
 
 bool Input::expire(const ros::Time& now, bool is_unmatched) {
   const bool has_stopped = stamps_.has_placed() && is_silent(now);
-  const Staleness staleness = has_stopped    ? Staleness::SILENT
-                              : is_unmatched ? Staleness::UNMATCHED
-                                             : Staleness::NONE;
-  if (staleness == Staleness::NONE || staleness == staleness_) {
+  if (!has_stopped && !is_unmatched) {
+    return false;
+  }
+  if (staleness_ && staleness_->is_silent == has_stopped) {
     return false;
   }
   const bool was_fresh = is_fresh();
   if (has_stopped) {
     overtake_placed(0);
   }
-  staleness_ = staleness;
-  stale_reason_ = has_stopped ? silence() : mismatch();
-  ROS_WARN_STREAM(log_.label() << ": " << stale_reason_ << "; its " << fibers().fiber_count()
+  staleness_ = Staleness{has_stopped, has_stopped ? silence() : mismatch()};
+  ROS_WARN_STREAM(log_.label() << ": " << staleness_->reason << "; its " << fibers().fiber_count()
                                << " fibre(s) are left out");
   return was_fresh;
 }
@@ -176,8 +161,7 @@ void Input::reset() {
   trial_.cancel();
   placed_.clear();
   has_fibers_ = false;
-  staleness_ = Staleness::NONE;
-  stale_reason_.clear();
+  staleness_.reset();
   stamps_ = InputStamps(timing_);
 }
 
@@ -202,8 +186,8 @@ std::optional<Unknown> Input::unknown() const {
   if (!options_.required) {
     return std::nullopt;
   }
-  unknown.is_logged = staleness_ != Staleness::NONE;
-  unknown.why = unknown.is_logged ? stale_reason_ : absence();
+  unknown.is_logged = staleness_.has_value();
+  unknown.why = staleness_ ? staleness_->reason : absence();
   return unknown;
 }
 
@@ -228,13 +212,13 @@ std::string Input::absence() const {
 fiber_proximity::InputStatistics Input::statistics(const ros::Time& now) const {
   const MissingPointCounts& missing = reader_.missing();
   fiber_proximity::InputStatistics statistics = log_.statistics();
-  statistics.dropped = gaps_.count();
+  statistics.dropped = publishers_.lost_messages();
   statistics.missing_points = missing.points;
   statistics.missing_fibers = missing.fibers;
   statistics.lone_points = missing.lone_points;
   statistics.fibers = is_fresh() ? static_cast<std::uint32_t>(fibers().fiber_count()) : 0;
   statistics.age = has_fibers_ ? (now - current_->arrival).toSec() : -1.0;
-  statistics.stale = staleness_ != Staleness::NONE;
+  statistics.stale = staleness_.has_value();
   return statistics;
 }
 

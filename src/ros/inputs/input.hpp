@@ -17,6 +17,7 @@
 #include "src/ros/inputs/input_stamps.hpp"
 #include "src/ros/inputs/message_log.hpp"
 #include "src/ros/inputs/message_reader.hpp"
+#include "src/ros/inputs/publishers.hpp"
 #include "src/ros/inputs/transform_queue.hpp"
 #include "src/ros/support/unknown.hpp"
 
@@ -64,7 +65,7 @@ class Input {
   bool take_left_out() { return std::exchange(was_left_out_, false); }
 
   /// True if there are fibres and they are not stale: these may be used.
-  bool is_fresh() const { return has_fibers_ && staleness_ == Staleness::NONE; }
+  bool is_fresh() const { return has_fibers_ && !staleness_; }
 
   /// True if no usable message has come for `input_timeout`.
   bool is_silent(const ros::Time& now) const { return stamps_.is_silent(now); }
@@ -84,7 +85,7 @@ class Input {
   fiber_proximity::InputStatistics statistics(const ros::Time& now) const;
 
   /// Why the fibres are stale; empty if they are not.
-  const std::string& stale_reason() const { return stale_reason_; }
+  std::string stale_reason() const { return staleness_ ? staleness_->reason : ""; }
 
   /// Tells whether its fibres, or some of their points, are not known now, which makes answers
   /// incomplete. An input that is not required lacks points at most.
@@ -92,9 +93,11 @@ class Input {
 
  private:
   /// Why the fibres are stale: no message comes, or those that come match no other input's.
-  enum class Staleness { NONE, SILENT, UNMATCHED };
+  struct Staleness {
+    bool is_silent;
+    std::string reason;
+  };
 
-  void watch_publishers(const std::string& publisher);
   std::vector<FiberMessagePtr> take_placed(const FixedFrame& frame);
   void overtake_placed(std::size_t left);
   void leave_out();
@@ -105,8 +108,7 @@ class Input {
   InputOptions options_;
   InputTiming timing_;
   MessageLog log_;
-  SequenceGaps gaps_;
-  PublisherTurns turns_;
+  Publishers publishers_;
   InputStamps stamps_;
   MessageReader reader_;
   TransformQueue transforms_;
@@ -116,8 +118,7 @@ class Input {
   FiberSpeeds speeds_;  // where latency makes fibres uncertain
   bool has_fibers_ = false;
   bool was_left_out_ = false;
-  Staleness staleness_ = Staleness::NONE;
-  std::string stale_reason_;
+  std::optional<Staleness> staleness_;
 };
 
 }  // namespace fiber_proximity_ros

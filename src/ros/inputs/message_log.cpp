@@ -32,9 +32,6 @@ std::string and_more(std::uint64_t count, const std::string& what) {
   return count == 0 ? "" : " (and " + std::to_string(count) + " more refused " + what + ")";
 }
 
-/// How many publishers are remembered. Tools that have another name in each run come and go.
-constexpr std::size_t max_publishers = 64;
-
 }  // namespace
 
 MessageLog::MessageLog(const std::string& topic, const std::string& type, const std::string& source)
@@ -92,25 +89,6 @@ MessageLog::Reason* MessageLog::place_of(const std::string& kind, const ros::Ste
   unlogged_ += oldest.unlogged;
   oldest = {kind, {}};
   return &oldest;
-}
-
-void SequenceGaps::add(const std::string& publisher, std::uint32_t sequence) {
-  is_numbered_ = is_numbered_ || sequence != 0;
-  const auto found =
-      std::find_if(publishers_.begin(), publishers_.end(),
-                   [&publisher](const Publisher& other) { return other.name == publisher; });
-  if (found == publishers_.end()) {
-    if (publishers_.size() == max_publishers) {
-      publishers_.pop_back();
-    }
-    publishers_.insert(publishers_.begin(), {publisher, sequence});
-    return;
-  }
-  if (sequence > found->last) {
-    count_ += sequence - found->last - 1;
-  }
-  found->last = sequence;
-  std::rotate(publishers_.begin(), found, found + 1);
 }
 
 }  // namespace fiber_proximity_ros

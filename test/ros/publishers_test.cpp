@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "src/ros/inputs/message_log.hpp"
+#include "src/ros/inputs/publishers.hpp"
 
 namespace fiber_proximity_ros {
 namespace {
@@ -73,6 +73,16 @@ TEST(PublisherTurns, AreTwoThatComeBack) {
   EXPECT_EQ(turns.add("/b"), "/a");
   EXPECT_EQ(turns.add("/c"), "");
   EXPECT_EQ(turns.add("/d"), "");
+}
+
+TEST(Publishers, AreWarnedOfInTheSameWordsWhicheverComesBack) {
+  Publishers publishers;
+  EXPECT_EQ(publishers.add("b", 1), "");
+  EXPECT_EQ(publishers.add("a", std::nullopt), "");
+  const std::string warning = publishers.add("b", 3);
+  EXPECT_NE(warning.find("'a' and 'b' by turns"), std::string::npos) << warning;
+  EXPECT_EQ(publishers.add("a", std::nullopt), warning);
+  EXPECT_EQ(publishers.lost_messages(), 1);
 }
 
 }  // namespace
