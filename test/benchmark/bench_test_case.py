@@ -8,6 +8,7 @@ import stat
 import sys
 import tempfile
 import unittest
+from unittest import mock
 
 sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "benchmark"))
 if importlib.util.find_spec("tqdm") is None:
@@ -31,16 +32,21 @@ class BenchTestCase(unittest.TestCase):
         self.tool.chmod(self.tool.stat().st_mode | stat.S_IXUSR)
 
     def printed_once_by(self, run, **arguments):
-        """As printed_by, but the experiment runs once for all tests of the class that read its
-        results, as drawing its figures takes seconds."""
+        """As printed_by, with its figures; the experiment runs once for all tests of the class that read its
+        results."""
         if "once" not in vars(type(self)):
             self.begin(self.addClassCleanup)
-            type(self).once = self.folder, self.printed_by(run, **arguments)
+            type(self).once = self.folder, self.printed(run, arguments)
         self.folder, printed = self.once
         return printed
 
     def printed_by(self, run, **arguments):
-        """What an experiment with the tool prints; its results are in the folder `out`."""
+        """What an experiment with the tool prints; its results are in the folder `out`, but for figures: to draw them
+        takes seconds."""
+        with mock.patch("matplotlib.figure.Figure.savefig"):
+            return self.printed(run, arguments)
+
+    def printed(self, run, arguments):
         with contextlib.redirect_stderr(io.StringIO()), \
                 contextlib.redirect_stdout(io.StringIO()) as printed:
             run(str(self.tool), self.folder / "out", **arguments)

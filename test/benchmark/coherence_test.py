@@ -42,11 +42,14 @@ for engine, skin in [*(("run_tree", skin) for skin in skins), (option("--engines
 class CoherenceTest(BenchTestCase):
     TOOL = TOOL
 
-    def quick(self):
+    def run_quick(self):
         return self.printed_by(run, quick=True)
 
+    def quick(self):
+        return self.printed_once_by(run, quick=True)
+
     def test_every_scene_of_the_paper_runs_once_with_all_skins(self):
-        self.quick()
+        self.run_quick()
         calls = self.calls()
         self.assertEqual(sorted(call.split()[2] for call in calls),
                          ["charming", "cloth", "curly", "longish", "soup", "tress_a", "tress_b",
@@ -71,11 +74,11 @@ class CoherenceTest(BenchTestCase):
         self.assertIn("soup ×0.02", (self.folder / "out" / "coherence.svg").read_text())
 
     def test_what_was_measured_before_is_not_measured_again(self):
-        self.quick()
+        self.run_quick()
         path = self.folder / "out" / "runs.jsonl"
         lines = path.read_text().splitlines()
         path.write_text("\n".join(lines[:-1]) + "\n")  # as after an end by force
-        self.quick()
+        self.run_quick()
         self.assertEqual(len(self.calls()), len(lines) + 1)
         again = path.read_text().splitlines()
         self.assertEqual((again[:-1], len(again)), (lines[:-1], len(lines)))
