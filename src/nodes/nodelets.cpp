@@ -8,17 +8,16 @@
 #include <string>
 #include <utility>
 
-#include "src/ros/server/proximity_server.hpp"
-#include "src/ros/sim/sim_server.hpp"
+#include "src/ros/server/make_proximity_server.hpp"
+#include "src/ros/sim/make_sim_server.hpp"
 #include "src/ros/support/callback_task.hpp"
 
 namespace fiber_proximity_ros {
 
 /// A nodelet that runs a server. Why it cannot is in the log: the manager's says only that.
-template <class Server>
 class ServerNodelet : public nodelet::Nodelet {
  private:
-  virtual std::unique_ptr<Server> make() = 0;
+  virtual std::shared_ptr<void> make() = 0;
 
   /// The server is built where its callbacks come from, one at a time: the manager's threads would
   /// call others while it is half built.
@@ -34,19 +33,18 @@ class ServerNodelet : public nodelet::Nodelet {
     }
   }
 
-  std::unique_ptr<Server> server_;
+  std::shared_ptr<void> server_;
 };
 
-class ProximityNodelet : public ServerNodelet<ProximityServer> {
-  std::unique_ptr<ProximityServer> make() override {
-    return std::make_unique<ProximityServer>(getNodeHandle(), getPrivateNodeHandle());
+class ProximityNodelet : public ServerNodelet {
+  std::shared_ptr<void> make() override {
+    return make_proximity_server(getNodeHandle(), getPrivateNodeHandle());
   }
 };
 
-class CableSimNodelet : public ServerNodelet<SimServer> {
-  std::unique_ptr<SimServer> make() override {
-    return std::make_unique<SimServer>(getNodeHandle(), getPrivateNodeHandle(),
-                                       read_sim_options(getNodeHandle(), getPrivateNodeHandle()));
+class CableSimNodelet : public ServerNodelet {
+  std::shared_ptr<void> make() override {
+    return make_sim_server(getNodeHandle(), getPrivateNodeHandle());
   }
 };
 

@@ -2,14 +2,14 @@
 
 #include <exception>
 
-#include "src/ros/server/proximity_server.hpp"
+#include "src/ros/server/make_proximity_server.hpp"
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "proximity");
   // Out here: with the last node handle goes the log, and with it the error below.
   const ros::NodeHandle node;
   try {
-    const fiber_proximity_ros::ProximityServer server(node, ros::NodeHandle("~"));
+    const auto server = fiber_proximity_ros::make_proximity_server(node, ros::NodeHandle("~"));
     ros::spin();
   } catch (const std::exception& error) {
     ROS_FATAL_STREAM(error.what());

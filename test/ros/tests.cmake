@@ -95,6 +95,9 @@ fiber_proximity_gtest(fiber_mesh_test
 
 # The running node, through the real graph.
 find_package(rostest REQUIRED)
+add_library(graph_test_main STATIC EXCLUDE_FROM_ALL ros/main.cpp)
+target_link_libraries(graph_test_main PRIVATE fiber_proximity_ros fiber_proximity_options ${GTEST_LIBRARIES})
+fiber_proximity_compile_cold(graph_test_main)
 add_executable(node_test EXCLUDE_FROM_ALL
   ros/bad_input_test.cpp
   ros/bad_parameters_test.cpp
@@ -112,7 +115,6 @@ add_executable(node_test EXCLUDE_FROM_ALL
   ros/inputs_test.cpp
   ros/joined_test.cpp
   ros/limits_test.cpp
-  ros/main.cpp
   ros/measure_settings_test.cpp
   ros/moving_test.cpp
   ros/no_clock_test.cpp
@@ -134,7 +136,7 @@ add_executable(node_test EXCLUDE_FROM_ALL
 )
 target_compile_definitions(node_test PRIVATE PROXIMITY_NODE="$<TARGET_FILE:proximity_node>")
 target_link_libraries(node_test
-  fiber_proximity_ros fiber_proximity_options test_support ${GTEST_LIBRARIES})
+  graph_test_main fiber_proximity_ros fiber_proximity_options test_support ${GTEST_LIBRARIES})
 add_dependencies(tests node_test)
 add_custom_target(soak DEPENDS node_test proximity_node)  # for scripts/campaign.sh
 foreach(name crossings draw environment inputs query unknown)
@@ -167,7 +169,6 @@ add_executable(cable_sim_test EXCLUDE_FROM_ALL
   ros/cable_sim_limits_test.cpp
   ros/cable_sim_scenes_test.cpp
   ros/cable_sim_test.cpp
-  ros/main.cpp
   ros/sim_forces_test.cpp
   ros/sim_obstacle_topic_test.cpp
   ros/sim_obstacles_test.cpp
@@ -179,7 +180,7 @@ fiber_proximity_compile_cold(failing_cable_sim)
 target_compile_definitions(cable_sim_test PRIVATE
   CABLE_SIM="$<TARGET_FILE:cable_sim>" FAILING_CABLE_SIM="$<TARGET_FILE:failing_cable_sim>")
 target_link_libraries(cable_sim_test
-  fiber_proximity_ros fiber_proximity_options ${GTEST_LIBRARIES})
+  graph_test_main fiber_proximity_ros fiber_proximity_options ${GTEST_LIBRARIES})
 add_dependencies(tests cable_sim_test failing_cable_sim)
 add_rostest(ros/cable_sim.test DEPENDENCIES cable_sim_test cable_sim)
 add_rostest(ros/demo.test DEPENDENCIES node_test proximity_node cable_sim)
@@ -193,14 +194,13 @@ add_rostest(ros/cable_sim.test
 
 add_executable(input_node_test EXCLUDE_FROM_ALL
   ros/input_budget_node_test.cpp
-  ros/main.cpp
   ros/missing_points_node_test.cpp
   ros/reversed_test.cpp
   ros/stamps_node_test.cpp
   ros/synchronize_node_test.cpp
 )
 target_link_libraries(input_node_test
-  fiber_proximity_ros fiber_proximity_options ${GTEST_LIBRARIES})
+  graph_test_main fiber_proximity_ros fiber_proximity_options ${GTEST_LIBRARIES})
 add_dependencies(tests input_node_test)
 foreach(name input_budget missing_points reversed stamps synchronize)
   add_rostest(ros/${name}.test DEPENDENCIES input_node_test proximity_node)
@@ -210,28 +210,25 @@ add_rostest_gtest(answer_text_node_test
   ros/answer_text.test
   ros/answer_text_node_test.cpp  # first: asks before an input has come
   ros/answer_truth_test.cpp
-  ros/main.cpp
 )
 target_link_libraries(answer_text_node_test
-  fiber_proximity_ros fiber_proximity_options test_support)
+  graph_test_main fiber_proximity_ros fiber_proximity_options test_support)
 add_dependencies(answer_text_node_test proximity_node)
 
 add_rostest_gtest(uncertainty_node_test
   ros/uncertainty.test
   ros/uncertainty_node_test.cpp
-  ros/main.cpp
 )
 target_link_libraries(uncertainty_node_test
-  fiber_proximity_ros fiber_proximity_options test_support)
+  graph_test_main fiber_proximity_ros fiber_proximity_options test_support)
 add_dependencies(uncertainty_node_test proximity_node)
 
 add_rostest_gtest(latency_node_test
   ros/latency.test
   ros/latency_node_test.cpp
-  ros/main.cpp
 )
 target_link_libraries(latency_node_test
-  fiber_proximity_ros fiber_proximity_options test_support)
+  graph_test_main fiber_proximity_ros fiber_proximity_options test_support)
 add_dependencies(latency_node_test proximity_node)
 
 add_rostest_gtest(environment_node_test
@@ -239,40 +236,36 @@ add_rostest_gtest(environment_node_test
   ros/environment_clouds_test.cpp
   ros/environment_inputs_test.cpp
   ros/environment_obstacles_test.cpp
-  ros/main.cpp
   ros/marker_obstacles_test.cpp
   ros/waiting_changes_test.cpp
 )
-target_link_libraries(environment_node_test fiber_proximity_ros fiber_proximity_options)
+target_link_libraries(environment_node_test graph_test_main fiber_proximity_ros fiber_proximity_options)
 
 # The running node without and with fibres: what it is asked about its environment.
 add_rostest_gtest(environment_services_test
   ros/environment_services.test
   ros/environment_services_test.cpp  # first of its suite: asks before there are fibres
   ros/environment_updates_test.cpp
-  ros/main.cpp
   ros/motion_services_test.cpp
 )
-target_link_libraries(environment_services_test fiber_proximity_ros fiber_proximity_options)
+target_link_libraries(environment_services_test graph_test_main fiber_proximity_ros fiber_proximity_options)
 add_dependencies(environment_services_test proximity_node)
 
 if(TARGET octomap_cloud_test)
   add_rostest_gtest(octomap_bridge_test
     ros/octomap_bridge.test
     ros/octomap_bridge_test.cpp
-    ros/main.cpp
   )
   target_link_libraries(octomap_bridge_test
-    fiber_proximity_octomap fiber_proximity_options ${OCTOMAP_LIBRARIES})
+    graph_test_main fiber_proximity_octomap fiber_proximity_options ${OCTOMAP_LIBRARIES})
   add_dependencies(octomap_bridge_test octomap_bridge proximity_node)
 endif()
 if(TARGET fiber_proximity_moveit)
   add_rostest_gtest(moveit_bridge_test
     ros/moveit_bridge.test
     ros/moveit_bridge_test.cpp
-    ros/main.cpp
   )
-  target_link_libraries(moveit_bridge_test fiber_proximity_moveit fiber_proximity_options)
+  target_link_libraries(moveit_bridge_test graph_test_main fiber_proximity_moveit fiber_proximity_options)
   add_dependencies(moveit_bridge_test moveit_bridge proximity_node)
 endif()
 

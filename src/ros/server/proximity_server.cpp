@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "src/ros/server/make_proximity_server.hpp"
 #include "src/ros/server/query_services.hpp"
 #include "src/ros/support/callback_task.hpp"
 
@@ -15,6 +16,11 @@ constexpr double tick_interval = 0.1;
 constexpr double retry_interval = 0.005;
 
 }  // namespace
+
+std::shared_ptr<void> make_proximity_server(const ros::NodeHandle& node,
+                                            const ros::NodeHandle& private_node) {
+  return std::make_shared<ProximityServer>(node, private_node);
+}
 
 ProximityServer::ProximityServer(const ros::NodeHandle& node, const ros::NodeHandle& private_node)
     : node_(node),

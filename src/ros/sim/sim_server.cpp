@@ -13,6 +13,7 @@
 #include "fiber_proximity/ros/conversions.hpp"
 #include "src/ros/environment/environment_options.hpp"
 #include "src/ros/environment/obstacle_change.hpp"
+#include "src/ros/sim/make_sim_server.hpp"
 #include "src/ros/support/parameters.hpp"
 #include "src/sim/scene/report.hpp"
 #include "src/text/join.hpp"
@@ -85,6 +86,11 @@ SimOptions read_sim_options(const ros::NodeHandle& node, const ros::NodeHandle& 
 
 fiber::SimDescription read_scene(const SimOptions& options) {
   return fiber::read_sim_scene(fiber::load_yaml(options.scene), options.meshes, {}, options.links);
+}
+
+std::shared_ptr<void> make_sim_server(const ros::NodeHandle& node,
+                                      const ros::NodeHandle& private_node) {
+  return std::make_shared<SimServer>(node, private_node, read_sim_options(node, private_node));
 }
 
 SimServer::SimServer(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
