@@ -1,8 +1,8 @@
+#include "src/ros/inputs/publishers.hpp"
+
 #include <gtest/gtest.h>
 
 #include <limits>
-
-#include "src/ros/inputs/publishers.hpp"
 
 namespace fiber_proximity_ros {
 namespace {
