@@ -25,7 +25,7 @@ SceneMap settings_map() {
                   "from frame to frame"),
        count_key("substeps", max_substeps, text_of(by_default.substeps),
                  "steps of a frame; chosen where there is `accuracy` or `real_time`"),
-       count_key("iterations", max_iterations, text_of(by_default.options.max_iterations),
+       count_key("iterations", max_step_iterations, text_of(by_default.options.max_iterations),
                  "of Newton's method in a step, at most"),
        number_key("residual", {1e-9, 1.0, false, false}, text_of(by_default.options.residual),
                   "m/s", "to which forces balance in a step"),

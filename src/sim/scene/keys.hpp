@@ -13,7 +13,7 @@ namespace fiber {
 constexpr std::int64_t max_segments = 1000000;  ///< of all fibres of a scene together, too
 constexpr std::int64_t max_repeats = 100000;
 constexpr std::uint32_t max_substeps = 1000;
-constexpr std::int64_t max_iterations = 1000;
+constexpr std::int64_t max_step_iterations = 1000;
 constexpr double max_initial_speed = 1000.0;  ///< of a fibre's points [m/s]
 
 /// The range in which a number must be. All numbers must be finite.

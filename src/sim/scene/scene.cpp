@@ -213,7 +213,8 @@ void read_within(const YamlField& document, const char* key, double& value) {
 
 void read_stepper_options(const YamlField& document, StepperOptions& options) {
   if (const auto iterations = document.find("iterations")) {
-    options.max_iterations = static_cast<std::uint32_t>(iterations->integer(1, max_iterations));
+    options.max_iterations =
+        static_cast<std::uint32_t>(iterations->integer(1, max_step_iterations));
   }
   read_within(document, "residual", options.residual);
   if (read_choice(document.find("integrator"), "implicit_euler", "bdf2")) {
