@@ -29,17 +29,11 @@ struct PairRule {
 /// @tparam Taker what becomes of them: WritePairs has what it can
 template <class Taker>
 struct FindPairs {
-  /// A box that is read in two steps.
-  struct alignas(16) PaddedBox {
-    TreeBox box;
-    float padding[2];
-  };
-
   struct Scratch {
     // Each level leaves at most 31 nodes on the stack while it is gone down from the last.
     std::uint32_t stack[31 * SegmentTreeView::max_levels + 2];
     TreeSegment mine[warp_width];
-    PaddedBox ones[warp_width];
+    TreeBox ones[warp_width];
     std::uint32_t boxes_near[2 * warp_width];  // the two queues
     std::uint32_t lines_near[2 * warp_width];
   };
@@ -70,7 +64,7 @@ struct FindPairs {
     FIBER_ON_DEVICE void run() {
       const SegmentTreeView& a = what_.a;
       warp_.each([&](int lane) {
-        const TreeSegment& segment = a.segments[smaller(place(leaf_, lane), a.segment_count - 1)];
+        const TreeSegment segment = a.segments[smaller(place(leaf_, lane), a.segment_count - 1)];
         scratch_.mine[lane] = segment;
         mine_[lane] = box_of(segment, what_.rule.bound);
       });
@@ -100,8 +94,8 @@ struct FindPairs {
           meet_leaf(node);
         }
       }
-      test_lines(boxes_waiting_);
-      test_segments(lines_waiting_);
+      test_lines();
+      test_segments();
     }
 
    private:
@@ -152,8 +146,9 @@ struct FindPairs {
         // The leaves below it end here; all earlier ones than this look for it themselves.
         const std::uint64_t begin = std::uint64_t{child} << (bits_per_level * level);
         const std::uint64_t end = (std::uint64_t{child} + 1) << (bits_per_level * level);
+        const TreeBox box = boxes[smaller(child, count - 1)];
         return child < count && (!what_.rule.self || end > leaf_) && leaves_.meet(begin, end) &&
-               overlap(whole_, boxes[child]);
+               overlap(whole_, box);
       });
       warp_.each([&](int lane) {
         if ((near & bit_of(lane)) != 0) {
@@ -169,7 +164,8 @@ struct FindPairs {
       const SegmentTreeView& b = what_.b;
       typename Warp::template PerLane<TreeBox> theirs;
       warp_.each([&](int lane) {
-        theirs[lane] = box_of(b.segments[smaller(place(other, lane), b.segment_count - 1)], 0.0F);
+        const TreeSegment segment = b.segments[smaller(place(other, lane), b.segment_count - 1)];
+        theirs[lane] = box_of(segment, 0.0F);
       });
       const TreeBox around = b.boxes[0][other];
       const std::uint32_t near_mine = warp_.ballot([&](int lane) {
@@ -181,34 +177,51 @@ struct FindPairs {
       const bool over_theirs = count_bits(near_theirs) <= count_bits(near_mine);
       const std::uint32_t lanes = over_theirs ? near_mine : near_theirs;
       const bool is_own = what_.rule.self && other == leaf_;
-      // One by one, against what the lanes hold.
       typename Warp::template PerLane<TreeBox> held;
+      typename Warp::template PerLane<std::uint32_t> hits;
       warp_.each([&](int lane) {
-        scratch_.ones[lane].box = chosen(over_theirs, theirs[lane], mine_[lane]);
+        scratch_.ones[lane] = chosen(over_theirs, theirs[lane], mine_[lane]);
         held[lane] = chosen(over_theirs, mine_[lane], theirs[lane]);
+        hits[lane] = 0;
       });
       warp_.sync();
+      // One by one, against what the lanes hold: a bit of each lane's hits.
       for (std::uint32_t rest = over_theirs ? near_theirs : near_mine; rest != 0;
            rest &= rest - 1) {
         const int one = lowest_bit(rest);
-        const PaddedBox box = scratch_.ones[one];
-        const std::uint32_t hits = warp_.ballot([&](int lane) {
-          const bool is_first = !is_own || (over_theirs ? one > lane : lane > one);
-          return (lanes & bit_of(lane)) != 0 && is_first && overlap(held[lane], box.box);
-        });
-        if (hits == 0) {
-          continue;
+        const TreeBox box = scratch_.ones[one];
+        warp_.each([&](int lane) { hits[lane] |= overlap(held[lane], box) ? bit_of(one) : 0U; });
+      }
+      warp_.sync();
+      // Of one leaf each pair is met twice.
+      warp_.each([&](int lane) {
+        const std::uint32_t before = bits_before(lane);
+        const std::uint32_t after = ~(before | bit_of(lane));
+        const std::uint32_t wanted = !is_own ? ~0U : over_theirs ? after : before;
+        hits[lane] &= (lanes & bit_of(lane)) != 0 ? wanted : 0U;
+      });
+      queue_hits(other, over_theirs, hits);
+    }
+
+    /// Lets the pairs wait whose boxes overlap: one of each lane at a time, as long as any has
+    /// some.
+    FIBER_ON_DEVICE void queue_hits(std::uint32_t other, bool over_theirs,
+                                    typename Warp::template PerLane<std::uint32_t>& hits) {
+      for (;;) {
+        const std::uint32_t lanes = warp_.ballot([&](int lane) { return hits[lane] != 0; });
+        if (lanes == 0) {
+          return;
         }
-        put(scratch_.boxes_near, boxes_waiting_, hits, [&](int lane) {
+        put(scratch_.boxes_near, boxes_waiting_, lanes, [&](int lane) {
+          const int one = lowest_bit(hits[lane]);
           return static_cast<std::uint32_t>(over_theirs ? lane : one) << place_bits |
                  place(other, over_theirs ? one : lane);
         });
+        warp_.each([&](int lane) { hits[lane] &= hits[lane] - 1; });
         if (boxes_waiting_ >= warp_width) {
-          test_lines(warp_width);
-          take_out(scratch_.boxes_near, boxes_waiting_);
+          test_lines();
         }
       }
-      warp_.sync();
     }
 
     /// Puts entries of these lanes into a queue.
@@ -224,54 +237,47 @@ struct FindPairs {
       warp_.sync();
     }
 
-    /// Takes a warp's worth out of a queue.
-    FIBER_ON_DEVICE void take_out(std::uint32_t* queue, int& waiting) {
-      typename Warp::template PerLane<std::uint32_t> left;
-      warp_.each([&](int lane) {
-        left[lane] = lane + warp_width < waiting ? queue[lane + warp_width] : 0U;
-      });
-      warp_.sync();
-      waiting -= warp_width;
-      warp_.each([&](int lane) {
-        if (lane < waiting) {
-          queue[lane] = left[lane];
-        }
-      });
-      warp_.sync();
+    /// Takes the last entries out of a queue, a warp's worth if there are so many.
+    /// @return how many; they stand where the queue ends now, until something is put there
+    FIBER_ON_DEVICE static int take_last(int& waiting) {
+      const int size = waiting < warp_width ? waiting : warp_width;
+      waiting -= size;
+      return size;
     }
 
-    /// Lets those of the first pairs wait further whose lines are near.
-    FIBER_ON_DEVICE void test_lines(int size) {
+    /// Lets those of the last pairs wait further whose lines are near.
+    FIBER_ON_DEVICE void test_lines() {
+      const int size = take_last(boxes_waiting_);
+      const std::uint32_t* const pairs = scratch_.boxes_near + boxes_waiting_;
       const std::uint32_t near = warp_.ballot([&](int lane) {
         if (lane >= size) {
           return false;
         }
-        const Pair pair(*this, scratch_.boxes_near[lane]);
+        const Pair pair(*this, pairs[lane]);
         return is_pair(pair.mine.point, pair.other.point) && pair.lines_are_near();
       });
-      if (near == 0) {
-        return;
+      if (near != 0) {
+        put(scratch_.lines_near, lines_waiting_, near, [&](int lane) { return pairs[lane]; });
       }
-      put(scratch_.lines_near, lines_waiting_, near,
-          [&](int lane) { return scratch_.boxes_near[lane]; });
+      warp_.sync();
       if (lines_waiting_ >= warp_width) {
-        test_segments(warp_width);
-        take_out(scratch_.lines_near, lines_waiting_);
+        test_segments();
       }
     }
 
-    /// Has those of the first pairs taken that may be near.
-    FIBER_ON_DEVICE void test_segments(int size) {
-      const std::uint32_t near = warp_.ballot([&](int lane) {
-        return lane < size && Pair(*this, scratch_.lines_near[lane]).segments_are_near();
-      });
-      if (near == 0) {
-        return;
+    /// Has those of the last pairs taken that may be near.
+    FIBER_ON_DEVICE void test_segments() {
+      const int size = take_last(lines_waiting_);
+      const std::uint32_t* const pairs = scratch_.lines_near + lines_waiting_;
+      const std::uint32_t near = warp_.ballot(
+          [&](int lane) { return lane < size && Pair(*this, pairs[lane]).segments_are_near(); });
+      if (near != 0) {
+        what_.taker.take(warp_, near, [&](int lane) {
+          const Pair pair(*this, pairs[lane]);
+          return key_of(pair.mine.point, pair.other.point);
+        });
       }
-      what_.taker.take(warp_, near, [&](int lane) {
-        const Pair pair(*this, scratch_.lines_near[lane]);
-        return key_of(pair.mine.point, pair.other.point);
-      });
+      warp_.sync();
     }
 
     FIBER_ON_DEVICE std::uint64_t key_of(std::uint32_t x, std::uint32_t y) const {
@@ -303,8 +309,8 @@ struct FindPairs {
 
     /// Two segments, as a queue tells of them.
     struct Pair {
-      const TreeSegment& mine;
-      const TreeSegment& other;
+      const TreeSegment mine;
+      const TreeSegment other;
       const float bound;
 
       FIBER_ON_DEVICE Pair(const Search& search, std::uint32_t entry)

@@ -15,8 +15,8 @@ namespace fiber {
 
 /// A segment in single precision, relative to the tree's origin [m]. The radius is padded so that
 /// every test errs on the safe side; infinite for a segment beyond the range of float, which is
-/// near everything.
-struct TreeSegment {
+/// near everything. A GPU reads 16 bytes at once.
+struct alignas(16) TreeSegment {
   float start[3];
   float radius;
   float end[3];
@@ -24,7 +24,7 @@ struct TreeSegment {
 };
 
 /// [m] relative to the tree's origin.
-struct TreeBox {
+struct alignas(16) TreeBox {
   float lower[3];
   float upper[3];
 
@@ -37,8 +37,13 @@ struct TreeBox {
 };
 
 FIBER_ON_DEVICE inline bool overlap(const TreeBox& a, const TreeBox& b) {
-  return a.lower[0] <= b.upper[0] && b.lower[0] <= a.upper[0] && a.lower[1] <= b.upper[1] &&
-         b.lower[1] <= a.upper[1] && a.lower[2] <= b.upper[2] && b.lower[2] <= a.upper[2];
+  // All six at once: lanes that part after each of them wait for each other, and for memory.
+  std::uint32_t apart = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    apart |= a.lower[axis] > b.upper[axis] ? 1U : 0U;
+    apart |= b.lower[axis] > a.upper[axis] ? 1U : 0U;
+  }
+  return apart == 0;
 }
 
 /// The box around a segment, thicker by so much [m].
@@ -305,8 +310,9 @@ struct FitLeaves {
   FIBER_ON_DEVICE void operator()(Warp warp, std::uint32_t index, Scratch& /*scratch*/) const {
     typename Warp::template PerLane<TreeBox> mine;
     warp.each([&](int lane) {
-      const std::uint32_t segment = index * warp_width + static_cast<std::uint32_t>(lane);
-      mine[lane] = box_of(segments[segment < segment_count ? segment : segment_count - 1], 0.0F);
+      const std::uint32_t place = index * warp_width + static_cast<std::uint32_t>(lane);
+      const TreeSegment segment = segments[place < segment_count ? place : segment_count - 1];
+      mine[lane] = box_of(segment, 0.0F);
     });
     write_joined(warp, mine, boxes[index]);
   }

@@ -47,7 +47,7 @@ template <class T> FIBER_ON_DEVICE T Div(T a, T b) { return a / b; }
 template <class T> FIBER_ON_DEVICE T MulAdd(T a, T b, T c) { return a * b + c; }
 template <class T> FIBER_ON_DEVICE T MulSub(T a, T b, T c) { return a * b - c; }
 template <class T> FIBER_ON_DEVICE T Neg(T a) { return -a; }
-template <class T> FIBER_ON_DEVICE T Abs(T a) { return a < 0 ? -a : a; }
+template <class T> FIBER_ON_DEVICE T Abs(T a) { return std::fabs(a); }
 template <class T> FIBER_ON_DEVICE T Min(T a, T b) { return a < b ? a : b; }
 template <class T> FIBER_ON_DEVICE T Max(T a, T b) { return a > b ? a : b; }
 template <class T> FIBER_ON_DEVICE T Sqrt(T a) { return sqrt(a); }
