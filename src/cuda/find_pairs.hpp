@@ -195,9 +195,7 @@ struct FindPairs {
       warp_.sync();
       // Of one leaf each pair is met twice.
       warp_.each([&](int lane) {
-        const std::uint32_t before = bits_before(lane);
-        const std::uint32_t after = ~(before | bit_of(lane));
-        const std::uint32_t wanted = !is_own ? ~0U : over_theirs ? after : before;
+        const std::uint32_t wanted = is_own ? bits_before(lane) : ~0U;
         hits[lane] &= (lanes & bit_of(lane)) != 0 ? wanted : 0U;
       });
       queue_hits(other, over_theirs, hits);
