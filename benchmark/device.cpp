@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <iostream>
+#include <map>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "benchmark/commands.hpp"
 #include "benchmark/device_candidates.hpp"
@@ -26,6 +29,7 @@ struct DeviceRequest {
   std::uint32_t threads = 1;
   std::uint32_t repeats = 11;
   bool json = false;
+  bool stages = false;
   CandidateRequest candidates{0};
 };
 
@@ -36,8 +40,10 @@ struct DeviceTimes {
   std::vector<double> all;      // both
   std::vector<double> locked;   // both, from page-locked points
   std::vector<double> copied;   // both, contacts into memory of the caller
-  std::vector<double> device;   // of all this what the GPU does
+  std::vector<double> device;   // of all this what the GPU does, where contacts stay there
   std::vector<double> run_tree;
+  std::map<std::string, std::vector<double>> stages;  // of what the GPU does
+  std::vector<std::string> stage_names;               // in their order
 };
 
 /// Whether contacts on the host are those of an engine, bit for bit.
@@ -86,6 +92,25 @@ void print(const DeviceRequest& request, const FiberAssembly& fibers, std::size_
                  {"run_tree_ms", median(times.run_tree)}});
 }
 
+void print_stages(const DeviceRequest& request, const DeviceTimes& times) {
+  RowPrinter printer({"scene", "stage", {"on GPU [ms]", "stage_ms"}}, request.json);
+  for (const std::string& stage : times.stage_names) {
+    printer.print(
+        {{"scene", request.scene}, {"stage", stage}, {"stage_ms", median(times.stages.at(stage))}});
+  }
+}
+
+/// Adds what the last update and query took on the GPU.
+void add_device_times(const DeviceProximity& device, DeviceTimes& times) {
+  constexpr double ms = 1e3;
+  times.device.push_back(ms * device.device_seconds());
+  times.stage_names.clear();
+  for (const DeviceProximity::Stage& stage : device.device_stages()) {
+    times.stage_names.push_back(stage.name);
+    times.stages[stage.name].push_back(ms * stage.seconds);
+  }
+}
+
 ExitCode run_device(const DeviceRequest& request) {
   if (request.candidates.count > 0) {
     CandidateRequest candidates = request.candidates;
@@ -124,6 +149,9 @@ ExitCode run_device(const DeviceRequest& request) {
       device.update_from_host(fibers.points());
       device.copy_to_host(device.query({}), copies);
     });
+    if (frame > 0) {
+      add_device_times(device, times);
+    }
     bool are_all_same = is_same_as(copies, copies.a.size());
     std::copy(fibers.points().begin(), fibers.points().end(), locked.begin());
     const double from_locked = time_of([&] {
@@ -140,16 +168,17 @@ ExitCode run_device(const DeviceRequest& request) {
     if (frame == 0) {
       continue;  // finds its memory
     }
-    constexpr double ms = 1e3;
     times.over.push_back(over);
     times.to_host.push_back(to_host);
     times.all.push_back(over + to_host);
     times.locked.push_back(from_locked);
     times.copied.push_back(copied);
-    times.device.push_back(ms * device.device_seconds());
     times.run_tree.push_back(run_tree);
   }
   print(request, fibers, arrays.count, times);
+  if (request.stages) {
+    print_stages(request, times);
+  }
   return SUCCEEDED;
 }
 
@@ -174,6 +203,7 @@ void add_device_command(CLI::App& app, Command& command) {
   add_value(*subcommand, "--radius", candidates.radius, "of these cables [m]", length());
   add_count(*subcommand, "--threads", request->threads, "of run_tree, or check_fibers()");
   add_count(*subcommand, "--repeats", request->repeats, "frames to measure");
+  subcommand->add_flag("--stages", request->stages, "of a scene: what the GPU takes, by stages");
   subcommand->add_flag("--json", request->json, "JSON Lines instead of a table");
 }
 

@@ -155,7 +155,8 @@ measure_there() {
   for scene in soup tress_a tress_b cloth longish windy charming curly; do
     step "cycle_$scene" here fiber_bench cycle --json --scene "$scene" --engines run_tree,cuda_tree \
       --threads "$(nproc)" --repeats "$frames"
-    step "device_$scene" here fiber_bench device --json --scene "$scene" --threads "$(nproc)" --repeats "$frames"
+    step "device_$scene" here fiber_bench device --json --stages --scene "$scene" --threads "$(nproc)" \
+      --repeats "$frames"
     cat "$out/cycle_$scene.log" "$out/device_$scene.log" >>"$out/times.jsonl"
   done
   : >"$out/sizes.jsonl"

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Draws what scripts/check_gpu.sh has measured, and prints it as a table.
+"""Draws what scripts/check_gpu.sh has measured, and prints it as a table; then a table of the stages on the GPU.
 
     scripts/draw_gpu_times.py TIMES.jsonl FIGURE.svg
 """
@@ -21,7 +21,9 @@ def read(path):
                 continue
             row = json.loads(line)
             scene = scenes.setdefault(row['scene'], {})
-            if 'engine' in row:
+            if 'stage' in row:
+                scene.setdefault('stages', {})[row['stage']] = row['stage_ms']
+            elif 'engine' in row:
                 scene[row['engine']] = row['cycle_ms']
                 scene['threads'] = max(row['threads'], scene.get('threads', 0))
             else:
@@ -71,12 +73,22 @@ def table(scenes):
               f"{scene['device']:.2f} | {scene['same'] / scene['device']:.1f} |".replace(',', ' '))
 
 
+def table_of_stages(scenes):
+    names = list(next(iter(scenes.values()))['stages'])
+    print(f"\n| scene | {' | '.join(f'{name} [ms]' for name in names)} |")
+    print('|-' * (len(names) + 1) + '|')
+    for name, scene in scenes.items():
+        print(f"| {name} | {' | '.join(format(scene['stages'][stage], '.2f') for stage in names)} |")
+
+
 def main():
     if len(sys.argv) != 3:
         sys.exit('usage: scripts/draw_gpu_times.py TIMES.jsonl FIGURE.svg')
     scenes = read(sys.argv[1])
     draw(scenes, sys.argv[2])
     table(scenes)
+    if all('stages' in scene for scene in scenes.values()):
+        table_of_stages(scenes)
 
 
 if __name__ == '__main__':

@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "src/cuda/cuda_memory.cuh"
 #include "src/cuda/device_of.hpp"
@@ -74,36 +75,47 @@ class CudaExecutor {
   /// Time of the GPU.
   class Clock {
    public:
-    Clock() {
-      check(cudaEventCreate(&start_));
-      check(cudaEventCreate(&stop_));
-    }
+    Clock() = default;
     ~Clock() {
-      cudaEventDestroy(start_);
-      cudaEventDestroy(stop_);
+      for (const cudaEvent_t event : events_) {
+        cudaEventDestroy(event);
+      }
     }
     Clock(const Clock&) = delete;
     Clock& operator=(const Clock&) = delete;
 
-    void start(CudaExecutor& executor) { check(cudaEventRecord(start_, executor.stream_)); }
-    void stop(CudaExecutor& executor) {
-      check(cudaEventRecord(stop_, executor.stream_));
-      has_run_ = true;
+    void start(CudaExecutor& executor) {
+      stages_.clear();
+      record(executor, 0);
     }
-    double seconds() const {
-      if (!has_run_) {
-        return 0.0;
+    void end(CudaExecutor& executor, const char* stage) {
+      record(executor, stages_.size() + 1);
+      stages_.push_back(stage);
+    }
+    std::vector<DeviceStage> stages() const {
+      std::vector<DeviceStage> stages;
+      for (std::size_t i = 0; i < stages_.size(); ++i) {
+        float milliseconds = 0.0F;
+        check(cudaEventSynchronize(events_[i + 1]));
+        check(cudaEventElapsedTime(&milliseconds, events_[i], events_[i + 1]));
+        stages.push_back({stages_[i], 1e-3 * static_cast<double>(milliseconds)});
       }
-      float milliseconds = 0.0F;
-      check(cudaEventSynchronize(stop_));
-      check(cudaEventElapsedTime(&milliseconds, start_, stop_));
-      return 1e-3 * static_cast<double>(milliseconds);
+      return stages;
     }
 
    private:
-    cudaEvent_t start_ = nullptr;
-    cudaEvent_t stop_ = nullptr;
-    bool has_run_ = false;
+    /// The end of so many stages.
+    void record(CudaExecutor& executor, std::size_t stages) {
+      if (events_.size() == stages) {
+        cudaEvent_t event = nullptr;
+        check(cudaEventCreate(&event));
+        events_.push_back(event);
+      }
+      check(cudaEventRecord(events_[stages], executor.stream_));
+    }
+
+    std::vector<const char*> stages_;
+    std::vector<cudaEvent_t> events_;  // one more
   };
 
   /// A point in the work that the GPU has been given.

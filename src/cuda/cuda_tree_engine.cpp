@@ -118,7 +118,7 @@ EngineFacts CudaTreeEngine::facts() const {
   EngineFacts facts;
   facts.thread_count = static_cast<std::uint32_t>(arena_.max_concurrency());
   facts.memory_bytes = tree_->memory_bytes() + device_->memory_bytes() + loops_.memory_bytes();
-  facts.device_seconds = tree_->seconds() + device_->seconds();
+  facts.device_seconds = seconds_of(tree_->stages()) + seconds_of(device_->stages());
   return facts;
 }
 

@@ -32,6 +32,12 @@ struct DeviceContacts {
   std::shared_ptr<const void> memory;  ///< of the device: contacts stay as long as it is held
 };
 
+/// One of the things that a device does one after the other.
+struct DeviceStage {
+  const char* name;
+  double seconds;  ///< [s]
+};
+
 /// A tree over the segments of fibres, on a device.
 class DeviceTree {
  public:
@@ -63,9 +69,18 @@ class DeviceTree {
   /// [bytes] of the device
   virtual std::size_t memory_bytes() const = 0;
 
-  /// [s] that the last update took on the device, once the points were there
-  virtual double seconds() const = 0;
+  /// What the last update took on the device, once the points were there.
+  virtual std::vector<DeviceStage> stages() const = 0;
 };
+
+/// [s] What stages took together.
+inline double seconds_of(const std::vector<DeviceStage>& stages) {
+  double sum = 0.0;
+  for (const DeviceStage& stage : stages) {
+    sum += stage.seconds;
+  }
+  return sum;
+}
 
 /// Where trees are built and pairs are found: a GPU, or this processor in its place.
 class Device {
@@ -126,8 +141,8 @@ class Device {
   /// [bytes] that pairs take, beside trees
   virtual std::size_t memory_bytes() const = 0;
 
-  /// [s] that the last find() took on the device, until the pairs were sorted
-  virtual double seconds() const = 0;
+  /// What the last find(), contacts() or touching() took on the device.
+  virtual std::vector<DeviceStage> stages() const = 0;
 };
 
 /// Kernels as loops on this processor: the same answers without a GPU, for tests and trials.

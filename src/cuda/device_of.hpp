@@ -37,7 +37,6 @@ class DeviceOf final : public Device {
     keys.clear();
     clock_.start(*executor_);
     const std::uint64_t count = search(a, first_leaf, leaf_count, b, rule, most);
-    clock_.stop(*executor_);
     if (count <= most) {
       keys.resize(static_cast<std::size_t>(count));
       executor_->download(pairs_, 0, keys.size(), keys.data());
@@ -57,7 +56,7 @@ class DeviceOf final : public Device {
       found_.set(*executor_);
       found_.wait();
     }
-    clock_.stop(*executor_);
+    clock_.end(*executor_, "contacts");
     return contacts;
   }
 
@@ -69,7 +68,7 @@ class DeviceOf final : public Device {
     DeviceContacts contacts =
         judge_.judge_to_host(*executor_, tree.points(), margin, pairs_.data(), count);
     const bool has_candidates = find_candidates(tree, contacts.count);
-    clock_.stop(*executor_);
+    clock_.end(*executor_, "contacts");
     if (has_candidates) {
       const auto& begins = judge_.on_device().candidate_begins;
       auto& on_host = judge_.on_host().candidate_begins;
@@ -99,7 +98,7 @@ class DeviceOf final : public Device {
                               candidates,    needs_loops, touching_.data(),
                               pairs};
         });
-    clock_.stop(*executor_);
+    clock_.end(*executor_, "pairs");
     require_pairs(found);
     executor_->download(touching_, 0, touching.size(), touching.data());
     asked.resize(static_cast<std::size_t>(found));
@@ -130,9 +129,8 @@ class DeviceOf final : public Device {
     const Turn turn(*executor_);
     auto array = std::make_shared<typename Executor::template Buffer<char>>();
     executor_->upload(static_cast<const char*>(from), bytes, *array);
-    clock_.start(*executor_);
-    clock_.stop(*executor_);
-    clock_.seconds();
+    found_.set(*executor_);
+    found_.wait();
     return {array, array->data()};
   }
   void read(const void* from, std::size_t bytes, void* to) override {
@@ -146,7 +144,7 @@ class DeviceOf final : public Device {
     return pairs_.bytes() + count_.bytes() + touching_.bytes() + judge_.memory_bytes() +
            executor_->memory_bytes();
   }
-  double seconds() const override { return clock_.seconds(); }
+  std::vector<DeviceStage> stages() const override { return clock_.stages(); }
 
  private:
   using Turn = typename Executor::Turn;
@@ -162,8 +160,10 @@ class DeviceOf final : public Device {
     }
     const std::uint64_t count = find_with(a, first_leaf, leaf_count, b, rule, most,
                                           [](const WritePairs& pairs) { return pairs; });
+    clock_.end(*executor_, "pairs");
     if (count <= most) {
       executor_->sort(pairs_, static_cast<std::size_t>(count), bits_of_points(a, b));
+      clock_.end(*executor_, "order of pairs");
     }
     return count;
   }

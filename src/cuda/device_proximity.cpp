@@ -147,8 +147,18 @@ DeviceProximity::HostArrays DeviceProximity::query_to_host(const Options& option
 
 std::optional<int> DeviceProximity::gpu() const { return device_->gpu(); }
 
+std::vector<DeviceProximity::Stage> DeviceProximity::device_stages() const {
+  std::vector<Stage> stages;
+  for (const auto& some : {tree_->tree->stages(), device_->stages()}) {
+    for (const DeviceStage& stage : some) {
+      stages.push_back({stage.name, stage.seconds});
+    }
+  }
+  return stages;
+}
+
 double DeviceProximity::device_seconds() const {
-  return tree_->tree->seconds() + device_->seconds();
+  return seconds_of(tree_->tree->stages()) + seconds_of(device_->stages());
 }
 
 }  // namespace fiber

@@ -32,7 +32,9 @@ namespace fiber {
 ///   bits), of keys whose halves have so many; add_up(buffer, first, count) makes each of these the
 ///   sum of all from the first of them up to it
 /// - Mark: set(), and wait() until what came before is done
-/// - Clock: start(), stop(), and seconds() between the two of what the device has done
+/// - Clock: start(), end(executor, name) of each stage, and stages() since the last start(), of
+/// what
+///   the device has done
 /// - min_judged_at_once, pairs that are worth a part of their own where contacts go to the host
 /// - max_values that it sorts and adds up; memory_bytes() that this takes
 template <class Executor>
@@ -71,7 +73,7 @@ class DeviceTreeOf final : public DeviceTree {
     update_from(fibers, coordinates);
   }
 
-  double seconds() const override { return clock_.seconds(); }
+  std::vector<DeviceStage> stages() const override { return clock_.stages(); }
 
   const SegmentTreeView& view() const override { return view_; }
   const std::uint32_t* fibers_by_point() const override { return fibers_.data(); }
@@ -123,6 +125,7 @@ class DeviceTreeOf final : public DeviceTree {
     coordinates_.resize(count);
     clock_.start(*executor_);
     executor_->for_each(count, TakePoints<Number>{coordinates, coordinates_.data()});
+    clock_.end(*executor_, "points");
     if (build(fibers) != 0) {
       std::vector<double> there(count);
       executor_->download(coordinates_, 0, count, there.data());
@@ -150,7 +153,7 @@ class DeviceTreeOf final : public DeviceTree {
     sort(points_);
     SegmentTreeView view;
     fit(points_, view);
-    clock_.stop(*executor_);
+    clock_.end(*executor_, "tree");
     std::uint64_t bad_count = 0;
     executor_->download(bad_count_, 0, 1, &bad_count);
     if (bad_count == 0) {
@@ -177,6 +180,7 @@ class DeviceTreeOf final : public DeviceTree {
       bounds += count;
       count = in_warps(count);
     }
+    clock_.end(*executor_, "bounds");
     keys_.resize(segment_count_);
     order_.resize(segment_count_);
     const int candidate_bits = candidates_.exist() ? bits_of(candidates_.count) : 0;
@@ -184,6 +188,7 @@ class DeviceTreeOf final : public DeviceTree {
     executor_->for_each(segment_count_, PlaceSegments{points, bounds, keys_.data(), order_.data(),
                                                       candidates_, fibers_.data(), position_bits});
     executor_->sort_by_key(keys_, order_, segment_count_, candidate_bits + position_bits);
+    clock_.end(*executor_, "order");
   }
 
   /// How many bits numbers up to this one have.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cassert>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -13,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "src/cuda/device.hpp"
 #include "src/cuda/device_buffer.hpp"
 #include "src/cuda/warp.hpp"
 #include "src/query/threads.hpp"
@@ -40,11 +42,22 @@ class HostExecutor {
   static constexpr std::uint32_t min_judged_at_once = 50;
   static constexpr std::uint64_t max_values = std::numeric_limits<std::uint32_t>::max();
 
-  /// There is no device whose time would count.
-  struct Clock {
-    void start(HostExecutor& /*executor*/) {}
-    void stop(HostExecutor& /*executor*/) {}
-    double seconds() const { return 0.0; }
+  class Clock {
+   public:
+    void start(HostExecutor& /*executor*/) {
+      stages_.clear();
+      last_ = std::chrono::steady_clock::now();
+    }
+    void end(HostExecutor& /*executor*/, const char* stage) {
+      const auto now = std::chrono::steady_clock::now();
+      stages_.push_back({stage, std::chrono::duration<double>(now - last_).count()});
+      last_ = now;
+    }
+    std::vector<DeviceStage> stages() const { return stages_; }
+
+   private:
+    std::vector<DeviceStage> stages_;
+    std::chrono::steady_clock::time_point last_;
   };
 
   /// All is done when it is called for.

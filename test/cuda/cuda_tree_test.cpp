@@ -181,6 +181,36 @@ TEST(DeviceProximity, GivesRunTreesContacts) {
   EXPECT_GT(count, 1000U);
 }
 
+/// Of the last update and the last query alone, whichever these were.
+TEST(DeviceProximity, TellsWhatEachStageTook) {
+  SCOPED_TRACE(seed_message());
+  Random random;
+  const FiberAssembly fibers = walks(random, 10, 200, 0.05, 0.01);
+  DeviceProximity device(make_test_device(), fibers.offsets(), fibers.radii());
+  const auto names = [&] {
+    std::string all;
+    double sum = 0.0;
+    for (const DeviceProximity::Stage& stage : device.device_stages()) {
+      EXPECT_GT(stage.seconds, 0.0) << stage.name;
+      all += (all.empty() ? "" : ", ") + stage.name;
+      sum += stage.seconds;
+    }
+    EXPECT_DOUBLE_EQ(sum, device.device_seconds());
+    return all;
+  };
+  EXPECT_EQ(names(), "");
+  DeviceArrays arrays;
+  device.update(arrays.put(coordinates_of<float>(fibers)).get());
+  EXPECT_EQ(names(), "points, bounds, order, tree");
+  for (int round = 0; round < 2; ++round) {
+    device.update_from_host(fibers.points());
+    device.query({0.01});
+    EXPECT_EQ(names(), "bounds, order, tree, pairs, order of pairs, contacts");
+    device.query_to_host({0.1});
+    EXPECT_EQ(names(), "bounds, order, tree, pairs, order of pairs, contacts");
+  }
+}
+
 TEST(DeviceProximity, RefusesWhatIsNotAllowed) {
   DeviceArrays arrays;
   EXPECT_NE(error_of([] { DeviceProximity(make_test_device(), {0, 1}, {0.1}); }), "no error");

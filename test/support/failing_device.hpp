@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <stdexcept>
+#include <vector>
 
 #include "src/cuda/device_of.hpp"
 #include "src/cuda/host_executor.hpp"
@@ -63,12 +64,12 @@ class FailingExecutor : public HostExecutor<FailingMemory> {
  public:
   using Host = HostExecutor<FailingMemory>;
 
-  struct Clock : Host::Clock {
+  struct Clock {
     void start(FailingExecutor& /*executor*/) { device_call(); }
-    void stop(FailingExecutor& /*executor*/) { device_call(); }
-    double seconds() const {
+    void end(FailingExecutor& /*executor*/, const char* /*stage*/) { device_call(); }
+    std::vector<DeviceStage> stages() const {
       device_call();
-      return 0.0;
+      return {};
     }
   };
   struct Mark {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "fiber_proximity/export.hpp"
@@ -69,6 +70,12 @@ class DeviceProximity {
     std::vector<double> t;
     std::vector<double> distance;
     std::vector<std::uint32_t> candidate_begins;
+  };
+
+  /// One of the things that the device does one after the other.
+  struct Stage {
+    std::string name;  ///< points, bounds, order, tree; pairs, order of pairs, contacts
+    double seconds;    ///< [s]
   };
 
   /// @param offsets fibre count + 1 values, from 0 to the number of points, on the host
@@ -143,6 +150,9 @@ class DeviceProximity {
 
   /// [s] What the last update() and the last query() or check_candidates() took on the device.
   double device_seconds() const;
+
+  /// What of that each stage took, in their order.
+  std::vector<Stage> device_stages() const;
 
  private:
   struct Tree;
