@@ -130,7 +130,7 @@ ExitCode run_device(const DeviceRequest& request) {
   QueryOptions options;
   options.neighbour_skip = 1;  // the rule of loops is the host's
   DeviceTimes times;
-  DeviceProximity::HostArrays arrays;
+  DeviceProximity::Contacts arrays;
   DeviceProximity::HostContacts copies;
   QueryResult result;
   std::vector<Eigen::Vector3d> locked = fibers.points();
@@ -156,10 +156,12 @@ ExitCode run_device(const DeviceRequest& request) {
     std::copy(fibers.points().begin(), fibers.points().end(), locked.begin());
     const double from_locked = time_of([&] {
       device.update_from_host(locked);
+      arrays = {};  // the next take its memory
       arrays = device.query_to_host({});
     });
     are_all_same = are_all_same && is_same_as(arrays, arrays.count);
     const double over = time_of([&] { device.update_from_host(fibers.points()); });
+    arrays = {};
     const double to_host = time_of([&] { arrays = device.query_to_host({}); });
     if (!are_all_same || !is_same_as(arrays, arrays.count)) {
       std::cerr << "fiber_bench: in frame " << frame << " run_tree has other contacts\n";

@@ -70,7 +70,7 @@ struct CandidateBatch {
 };
 
 /// Whether contacts are those of check_fibers(), bit for bit.
-bool are_same(const DeviceProximity::HostArrays& found, const CandidateBatch& batch,
+bool are_same(const DeviceProximity::Contacts& found, const CandidateBatch& batch,
               const std::vector<FiberCheck>& checks) {
   const auto still = static_cast<std::uint32_t>(batch.points.size() - batch.still.point_count());
   std::uint32_t next = 0;
@@ -189,7 +189,7 @@ ExitCode measure_candidates(const CandidateRequest& request) {
   };
   const DeviceProximity::Options with_loops{0.0, std::nullopt};
   std::vector<std::uint8_t> touching;
-  DeviceProximity::HostArrays contacts;
+  DeviceProximity::Contacts contacts;
   CandidateTimes times;
   for (std::uint32_t frame = 0; frame <= request.repeats; ++frame) {
     progress.show("batch " + std::to_string(frame) + " of " + std::to_string(request.repeats));
@@ -209,6 +209,7 @@ ExitCode measure_candidates(const CandidateRequest& request) {
     are_right = are_right && touch_the_same(touching, first_checks);
     const double with_contacts = time_of([&] {
       device.update_from_host(batch.points);
+      contacts = {};  // the next take its memory
       contacts = device.query_to_host({});
     });
     if (!are_right || !are_same(contacts, batch, all_checks)) {

@@ -42,6 +42,7 @@ add_library(fiber_proximity_python MODULE
   src/python/contacts.cpp
   src/python/curves.cpp
   src/python/device_arrays.cpp
+  src/python/device_contacts.cpp
   src/python/device_proximity.cpp
   src/python/engine.cpp
   src/python/environment.cpp

@@ -28,12 +28,13 @@ class ContactJudge {
       start(executor, part);
     }
     const std::uint32_t found = finish(executor);
-    return {found, device_->arrays(), nullptr, device_};
+    return {found, device_->arrays(), nullptr, device_.hold()};
   }
 
   /// The same in page-locked memory of the host, once wait() has returned.
   DeviceContacts judge_to_host(Executor& executor, const TreePoints& points, double margin,
                                const std::uint64_t* pairs, std::uint32_t count) {
+    host_.leave_what_is_held();
     begin(points, margin, pairs, count,
           std::max(Executor::min_judged_at_once, count / max_parts + 1));
     std::uint32_t sent = 0;
@@ -45,29 +46,26 @@ class ContactJudge {
         start(executor, part + 1);
       }
       const std::uint32_t found = total(part);
-      if (found <= std::min(device_->capacity(), host_.capacity())) {
+      if (found <= std::min(device_->capacity(), host_->capacity())) {
         send(executor, sent, found);
         sent = found;
       }
     }
     const std::uint32_t found = finish(executor);
-    if (found > host_.capacity()) {
+    if (found > host_->capacity()) {
       executor.wait_for_sent();
-      host_.resize(found);
+      host_->resize(found);
       sent = 0;
     }
     send(executor, sent, found);
-    return {found, host_.arrays(), nullptr, nullptr};
+    return {found, host_->arrays(), nullptr, host_.hold()};
   }
   /// The last contacts.
   Room& on_device() { return *device_; }
-  HostRoom& on_host() { return host_; }
+  HostRoom& on_host() { return *host_; }
   void wait(Executor& executor) { executor.wait_for_sent(); }
 
-  std::size_t memory_bytes() const {
-    return judged_.bytes() + places_.bytes() + device_->bytes() +
-           (before_ != nullptr ? before_->bytes() : 0);
-  }
+  std::size_t memory_bytes() const { return judged_.bytes() + places_.bytes() + device_.bytes(); }
 
  private:
   // Each costs the device a few launches; the first is waited for.
@@ -75,7 +73,7 @@ class ContactJudge {
 
   void begin(const TreePoints& points, double margin, const std::uint64_t* pairs,
              std::uint32_t count, std::uint32_t part_size) {
-    leave_what_is_held();
+    device_.leave_what_is_held();
     judge_ = {points, margin, pairs, nullptr, nullptr, 0};
     count_ = count;
     part_size_ = part_size;
@@ -85,16 +83,6 @@ class ContactJudge {
     totals_.resize(max_parts);
     judge_.judged = judged_.data();
     judge_.are_contacts = places_.data();
-  }
-
-  /// Contacts that somebody holds stay as they are: others go elsewhere.
-  void leave_what_is_held() {
-    if (device_.use_count() > 1) {
-      std::swap(device_, before_);
-      if (device_ == nullptr || device_.use_count() > 1) {
-        device_ = std::make_shared<Room>();
-      }
-    }
   }
 
   std::uint32_t part_begin(std::uint32_t part) const { return part * part_size_; }
@@ -145,11 +133,11 @@ class ContactJudge {
     if (count == 0) {
       return;
     }
-    executor.send(device_->a, begin, count, host_.a);
-    executor.send(device_->b, begin, count, host_.b);
-    executor.send(device_->s, begin, count, host_.s);
-    executor.send(device_->t, begin, count, host_.t);
-    executor.send(device_->distance, begin, count, host_.distance);
+    executor.send(device_->a, begin, count, host_->a);
+    executor.send(device_->b, begin, count, host_->b);
+    executor.send(device_->s, begin, count, host_->s);
+    executor.send(device_->t, begin, count, host_->t);
+    executor.send(device_->distance, begin, count, host_->distance);
   }
 
   JudgePairs judge_{};
@@ -158,9 +146,8 @@ class ContactJudge {
   std::uint32_t part_count_ = 0;
   typename Executor::template Buffer<JudgedPair> judged_;
   typename Executor::template Buffer<std::uint32_t> places_;
-  std::shared_ptr<Room> device_ = std::make_shared<Room>();
-  std::shared_ptr<Room> before_;  // of the contacts before, if they were held then
-  HostRoom host_;
+  HeldRoom<Executor::template Buffer> device_;
+  HeldRoom<Executor::template HostBuffer> host_;
   typename Executor::template HostBuffer<std::uint32_t> totals_;
   typename Executor::Mark marks_[max_parts];
 };

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <utility>
 
 #include "src/cuda/judge_pairs.hpp"
 
@@ -33,6 +36,33 @@ struct ContactRoom {
            candidate_begins.bytes();
   }
   ContactArrays arrays() { return {a.data(), b.data(), s.data(), t.data(), distance.data()}; }
+};
+
+/// Memory of the last contacts. Those that somebody holds stay as they are: others go elsewhere.
+template <template <class> class Buffer>
+class HeldRoom {
+ public:
+  using Room = ContactRoom<Buffer>;
+
+  /// To be called before others are written.
+  void leave_what_is_held() {
+    if (room_.use_count() > 1) {
+      std::swap(room_, before_);
+      if (room_ == nullptr || room_.use_count() > 1) {
+        room_ = std::make_shared<Room>();
+      }
+    }
+  }
+
+  Room& operator*() const { return *room_; }
+  Room* operator->() const { return room_.get(); }
+  std::shared_ptr<const void> hold() const { return room_; }
+
+  std::size_t bytes() const { return room_->bytes() + (before_ != nullptr ? before_->bytes() : 0); }
+
+ private:
+  std::shared_ptr<Room> room_ = std::make_shared<Room>();
+  std::shared_ptr<Room> before_;  // of the contacts before, if they were held then
 };
 
 }  // namespace fiber

@@ -29,7 +29,7 @@ struct DeviceContacts {
   std::uint32_t count = 0;
   ContactArrays arrays = {};
   const std::uint32_t* candidate_begins = nullptr;  ///< none where there are no candidates
-  std::shared_ptr<const void> memory;  ///< of the device: contacts stay as long as it is held
+  std::shared_ptr<const void> memory;               ///< contacts stay as long as it is held
 };
 
 /// One of the things that a device does one after the other.
@@ -105,7 +105,7 @@ class Device {
   /// @throws std::runtime_error for more pairs than can be sorted
   virtual DeviceContacts contacts(const DeviceTree& tree, const PairRule& rule, double margin) = 0;
 
-  /// The same in page-locked memory of the host, until it is called again.
+  /// The same in page-locked memory of the host.
   virtual DeviceContacts contacts_to_host(const DeviceTree& tree, const PairRule& rule,
                                           double margin) = 0;
 

@@ -9,6 +9,20 @@
 #include "src/cuda/device_proximity_tree.hpp"
 
 namespace fiber {
+namespace {
+
+const double* coordinates_of(const std::vector<Eigen::Vector3d>& points) {
+  return points.empty() ? nullptr : points.front().data();
+}
+
+DeviceProximity::Contacts contacts_of(const DeviceContacts& found) {
+  const ContactArrays& arrays = found.arrays;
+  return {
+      found.count, arrays.a, arrays.b, arrays.s, arrays.t, arrays.distance, found.candidate_begins,
+      found.memory};
+}
+
+}  // namespace
 
 DeviceProximity::DeviceProximity(std::vector<std::uint32_t> offsets, std::vector<double> radii)
     : DeviceProximity(make_cuda_device(), std::move(offsets), std::move(radii)) {}
@@ -66,21 +80,39 @@ void DeviceProximity::take(const Number* coordinates) {
 void DeviceProximity::update(const double* coordinates) { take(coordinates); }
 void DeviceProximity::update(const float* coordinates) { take(coordinates); }
 
-void DeviceProximity::update_from_host(const std::vector<Eigen::Vector3d>& points) {
+/// @throws std::invalid_argument
+void DeviceProximity::require_count(const std::vector<Eigen::Vector3d>& points) const {
   if (points.size() != point_count()) {
     throw std::invalid_argument("there are " + std::to_string(points.size()) +
                                 " points, the fibres have " + std::to_string(point_count()));
   }
+}
+
+void DeviceProximity::update_from_host(const std::vector<Eigen::Vector3d>& points) {
+  require_count(points);
+  update_from_host(coordinates_of(points));
+}
+
+void DeviceProximity::update_from_host(const double* coordinates) {
+  if (coordinates == nullptr && point_count() > 0) {
+    throw std::invalid_argument("the points are a null pointer, the fibres have " +
+                                std::to_string(point_count()));
+  }
   tree_->has_points = false;
   HostFibers fibers = tree_->fibers;
-  fibers.coordinates = points.empty() ? nullptr : points.front().data();
+  fibers.coordinates = coordinates;
   tree_->tree->update(fibers);
   tree_->has_points = true;
 }
 
 std::shared_ptr<void> DeviceProximity::lock_points(
     const std::vector<Eigen::Vector3d>& points) const {
-  return device_->lock_pages(points.data(), points.size() * sizeof(Eigen::Vector3d));
+  require_count(points);
+  return lock_points(coordinates_of(points));
+}
+
+std::shared_ptr<void> DeviceProximity::lock_points(const double* coordinates) const {
+  return device_->lock_pages(coordinates, point_count() * sizeof(Eigen::Vector3d));
 }
 
 void DeviceProximity::copy_to_host(const Contacts& contacts, HostContacts& copy) const {
@@ -129,20 +161,12 @@ PairRule DeviceProximity::rule_of_contacts(const Options& options) const {
 }
 
 DeviceProximity::Contacts DeviceProximity::query(const Options& options) const {
-  const DeviceContacts found =
-      device_->contacts(*tree_->tree, rule_of_contacts(options), options.margin);
-  const ContactArrays& arrays = found.arrays;
-  return {
-      found.count, arrays.a, arrays.b, arrays.s, arrays.t, arrays.distance, found.candidate_begins,
-      found.memory};
+  return contacts_of(device_->contacts(*tree_->tree, rule_of_contacts(options), options.margin));
 }
 
-DeviceProximity::HostArrays DeviceProximity::query_to_host(const Options& options) const {
-  const DeviceContacts found =
-      device_->contacts_to_host(*tree_->tree, rule_of_contacts(options), options.margin);
-  const ContactArrays& arrays = found.arrays;
-  return {found.count,           arrays.a, arrays.b, arrays.s, arrays.t, arrays.distance,
-          found.candidate_begins};
+DeviceProximity::Contacts DeviceProximity::query_to_host(const Options& options) const {
+  return contacts_of(
+      device_->contacts_to_host(*tree_->tree, rule_of_contacts(options), options.margin));
 }
 
 std::optional<int> DeviceProximity::gpu() const { return device_->gpu(); }

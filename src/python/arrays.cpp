@@ -88,11 +88,16 @@ void copy_points(const double* rows, std::size_t count, std::vector<Eigen::Vecto
   }
 }
 
-std::vector<Eigen::Vector3d> to_points(const py::object& object, const char* name) {
-  const Doubles array = to_doubles(object, name);
+Doubles to_point_array(const py::object& object, const char* name) {
+  Doubles array = to_doubles(object, name);
   if (array.ndim() != 2 || array.shape(1) != 3) {
     refuse_shape(array, name, "(n, 3)");
   }
+  return array;
+}
+
+std::vector<Eigen::Vector3d> to_points(const py::object& object, const char* name) {
+  const Doubles array = to_point_array(object, name);
   std::vector<Eigen::Vector3d> points;
   copy_points(array.data(), static_cast<std::size_t>(array.shape(0)), points);
   return points;
@@ -184,9 +189,8 @@ py::array view(const double* values, const std::vector<Py_ssize_t>& shape,
   return read_only(py::array_t<double>(shape, values, owner));
 }
 
-py::array view(const std::vector<std::uint32_t>& values, const py::object& owner) {
-  return read_only(
-      py::array_t<std::uint32_t>(static_cast<Py_ssize_t>(values.size()), values.data(), owner));
+py::array view(const std::uint32_t* values, std::size_t count, const py::object& owner) {
+  return read_only(py::array_t<std::uint32_t>(static_cast<Py_ssize_t>(count), values, owner));
 }
 
 }  // namespace fiber::python

@@ -38,6 +38,9 @@ Doubles to_doubles(const py::object& object, const char* name);
 /// Throws ValueError: the shape is not the one that is allowed.
 [[noreturn]] void refuse_shape(const py::array& array, const char* name, const char* allowed);
 
+/// Points (n, 3) [m], as they lie where they do so already.
+Doubles to_point_array(const py::object& object, const char* name);
+
 /// Points (n, 3) [m].
 std::vector<Eigen::Vector3d> to_points(const py::object& object, const char* name);
 
@@ -105,7 +108,7 @@ py::array to_array(const std::vector<double>& values);
 
 /// An array that cannot be written, of values that the owner keeps.
 py::array view(const double* values, const std::vector<Py_ssize_t>& shape, const py::object& owner);
-py::array view(const std::vector<std::uint32_t>& values, const py::object& owner);
+py::array view(const std::uint32_t* values, std::size_t count, const py::object& owner);
 
 /// Something that views keep alive.
 template <class Object>

@@ -10,6 +10,7 @@ void bind_contacts(pybind11::module& module);
 void bind_environment(pybind11::module& module);
 void bind_check(pybind11::module& module);
 void bind_engine(pybind11::module& module);
+void bind_device_contacts(pybind11::module& module);
 void bind_device_proximity(pybind11::module& module);
 void bind_topology(pybind11::module& module);
 void bind_simulation(pybind11::module& module);

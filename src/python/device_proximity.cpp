@@ -1,25 +1,19 @@
-#include "fiber_proximity/cuda/device_proximity.hpp"
+#include "src/python/device_proximity.hpp"
 
-#include <pybind11/stl.h>
-
-#include <algorithm>
+#include <cstdint>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <stdexcept>
 #include <string>
-#include <utility>
 
-#include "src/cuda/device.hpp"
 #include "src/python/arrays.hpp"
 #include "src/python/bindings.hpp"
-#include "src/python/device_arrays.hpp"
+#include "src/python/device_contacts.hpp"
 #include "src/text/quote.hpp"
 
 namespace fiber::python {
-namespace {
 
-std::unique_ptr<Device> device_of(const std::string& name) {
+std::unique_ptr<Device> make_device(const std::string& name) {
   if (name == "gpu") {
     return make_cuda_device();
   }
@@ -29,70 +23,7 @@ std::unique_ptr<Device> device_of(const std::string& name) {
   throw std::invalid_argument("unknown device " + quote(name) + ", known are: gpu, host");
 }
 
-/// One of the fibres' engine on the GPU, as Python has it.
-class PythonDeviceProximity {
- public:
-  PythonDeviceProximity(const py::object& offsets, const py::object& radii,
-                        const std::string& device, const py::object& candidates)
-      : proximity_(candidates.is_none()
-                       ? std::make_unique<DeviceProximity>(device_of(device),
-                                                           to_indices(offsets, "offsets"),
-                                                           to_numbers(radii, "radii"))
-                       : std::make_unique<DeviceProximity>(
-                             device_of(device), to_indices(offsets, "offsets"),
-                             to_numbers(radii, "radii"), to_indices(candidates, "candidates"))) {}
-
-  void update(const py::object& points) {
-    if (const auto on_device =
-            DevicePoints::of(points, proximity_->gpu().has_value(), proximity_->point_count())) {
-      const WithoutPythonLock others_may_run;
-      const std::lock_guard<std::mutex> lock(mutex_);
-      if (on_device->is_single) {
-        proximity_->update(reinterpret_cast<const float*>(on_device->address));
-      } else {
-        proximity_->update(reinterpret_cast<const double*>(on_device->address));
-      }
-      return;
-    }
-    const std::vector<Eigen::Vector3d> on_host = to_points(points, "points");
-    const WithoutPythonLock others_may_run;
-    const std::lock_guard<std::mutex> lock(mutex_);
-    proximity_->update_from_host(on_host);
-  }
-
-  DeviceProximity::Contacts query(const DeviceProximity::Options& options) {
-    const WithoutPythonLock others_may_run;
-    const std::lock_guard<std::mutex> lock(mutex_);
-    return proximity_->query(options);
-  }
-
-  py::array_t<bool> check(const DeviceProximity::Options& options) {
-    std::vector<std::uint8_t> touching;
-    {
-      const WithoutPythonLock others_may_run;
-      const std::lock_guard<std::mutex> lock(mutex_);
-      proximity_->check_candidates(options, touching);
-    }
-    py::array_t<bool> answer(static_cast<Py_ssize_t>(touching.size()));
-    std::copy(touching.begin(), touching.end(), answer.mutable_data());
-    return answer;
-  }
-
-  void copy_to_host(const DeviceProximity::Contacts& contacts,
-                    DeviceProximity::HostContacts& copy) {
-    const WithoutPythonLock others_may_run;
-    const std::lock_guard<std::mutex> lock(mutex_);
-    proximity_->copy_to_host(contacts, copy);
-  }
-
-  std::optional<int> gpu() const { return proximity_->gpu(); }
-  std::size_t candidate_count() const { return proximity_->candidate_count(); }
-  double device_seconds() const { return proximity_->device_seconds(); }
-
- private:
-  std::unique_ptr<DeviceProximity> proximity_;
-  std::mutex mutex_;
-};
+namespace {
 
 /// @param neighbour_skip None for the rule of loops
 DeviceProximity::Options to_device_options(double margin, const py::object& neighbour_skip,
@@ -104,134 +35,35 @@ DeviceProximity::Options to_device_options(double margin, const py::object& neig
   return options;
 }
 
-/// The contacts of one query: there as long as somebody holds it, or an array that was taken of it.
-class PythonDeviceContacts {
+/// An array of points that stays where it is for as long as this is held, and not released.
+class PythonLockedPoints {
  public:
-  PythonDeviceContacts(std::shared_ptr<PythonDeviceProximity> of,
-                       const DeviceProximity::Options& options)
-      : of_(std::move(of)), contacts_(of_->query(options)) {}
-
-  std::uint32_t count() const { return contacts_.count; }
-
-  template <class Value>
-  DeviceValues values(const Value* data) const {
-    return {data, contacts_.count, sizeof(Value), of_->gpu()};
-  }
-
-  bool has_candidates() const { return contacts_.candidate_begins != nullptr; }
-  DeviceValues candidate_begins() const {
-    return {contacts_.candidate_begins, of_->candidate_count() + 1, sizeof(std::uint32_t),
-            of_->gpu()};
-  }
-
-  py::dict to_host() const {
-    DeviceProximity::HostContacts copy;
-    of_->copy_to_host(contacts_, copy);
-    py::dict arrays;
-    arrays["a"] = to_array(py::dtype("u4"), copy.a);
-    arrays["b"] = to_array(py::dtype("u4"), copy.b);
-    arrays["s"] = to_array(py::dtype("f8"), copy.s);
-    arrays["t"] = to_array(py::dtype("f8"), copy.t);
-    arrays["distance"] = to_array(py::dtype("f8"), copy.distance);
-    if (!copy.candidate_begins.empty()) {
-      arrays["candidate_begins"] = to_array(py::dtype("u4"), copy.candidate_begins);
+  PythonLockedPoints(PythonDeviceProximity& of, const py::object& points) : points_(points) {
+    if (!py::isinstance<Doubles>(points)) {
+      throw py::type_error(
+          "points that are locked must be an array of numpy, of float64 in C order: of others a "
+          "copy is taken in each update");
     }
-    return arrays;
+    lock_ = of.lock(to_point_array(points, "points"));
   }
-
-  const DeviceProximity::Contacts& contacts() const { return contacts_; }
+  void release() {
+    lock_.reset();
+    points_ = py::none();
+  }
 
  private:
-  std::shared_ptr<PythonDeviceProximity> of_;
-  DeviceProximity::Contacts contacts_;
+  py::object points_;
+  std::shared_ptr<void> lock_;  // let go before the points are
 };
-
-/// One array of contacts.
-struct PythonDeviceArray {
-  std::shared_ptr<PythonDeviceContacts> contacts;
-  DeviceValues (*values_of)(const PythonDeviceContacts&);
-
-  DeviceValues values() const { return values_of(*contacts); }
-};
-
-template <auto member>
-PythonDeviceArray array_of(const std::shared_ptr<PythonDeviceContacts>& contacts) {
-  return {contacts,
-          [](const PythonDeviceContacts& of) { return of.values(of.contacts().*member); }};
-}
-
-std::optional<PythonDeviceArray> candidate_begins_of(
-    const std::shared_ptr<PythonDeviceContacts>& contacts) {
-  if (!contacts->has_candidates()) {
-    return std::nullopt;
-  }
-  return PythonDeviceArray{contacts,
-                           [](const PythonDeviceContacts& of) { return of.candidate_begins(); }};
-}
-
-/// @throws py::buffer_error for what only a copy could be
-py::capsule dlpack_of(const PythonDeviceArray& array, const py::object& /*stream*/,
-                      const py::object& /*max_version*/, const py::object& dl_device,
-                      const py::object& copy) {
-  const DeviceValues values = array.values();
-  if (!dl_device.is_none() && !to_dlpack_device(values).equal(dl_device)) {
-    throw py::buffer_error("the array is on the device " +
-                           py::str(to_dlpack_device(values)).cast<std::string>() +
-                           " and goes to no other");
-  }
-  if (!copy.is_none() && copy.cast<bool>()) {
-    throw py::buffer_error("the array is shared, never copied");
-  }
-  return to_dlpack(values, array.contacts);
-}
 
 }  // namespace
 
 void bind_device_proximity(py::module& module) {
-  py::class_<PythonDeviceArray>(
-      module, "DeviceArray",
-      "Values on a GPU, to be read by whoever takes such, by DLPack or CUDA's array interface: "
-      "cupy, torch, jax, warp, numba. They are not to be written.")
-      .def_property_readonly(
-          "__cuda_array_interface__",
-          [](const PythonDeviceArray& array) { return to_cuda_array_interface(array.values()); })
-      // They are written when query() returns: no stream has to wait.
-      .def("__dlpack__", &dlpack_of, py::kw_only(), py::arg("stream") = py::none(),
-           py::arg("max_version") = py::none(), py::arg("dl_device") = py::none(),
-           py::arg("copy") = py::none())
-      .def("__dlpack_device__",
-           [](const PythonDeviceArray& array) { return to_dlpack_device(array.values()); })
-      .def("__len__", [](const PythonDeviceArray& array) { return array.values().count; });
-
-  using Contacts = std::shared_ptr<PythonDeviceContacts>;
-  py::class_<PythonDeviceContacts, Contacts>(
-      module, "DeviceContacts",
-      "Contacts on a GPU, sorted by a, then b; there as long as this or one of its arrays is held: "
-      "the next query() takes other memory.")
-      .def_property_readonly(
-          "a", [](const Contacts& all) { return array_of<&DeviceProximity::Contacts::a>(all); },
-          "First points of the segments, uint32, the smaller one of each pair.")
-      .def_property_readonly(
-          "b", [](const Contacts& all) { return array_of<&DeviceProximity::Contacts::b>(all); },
-          "The other ones.")
-      .def_property_readonly(
-          "s", [](const Contacts& all) { return array_of<&DeviceProximity::Contacts::s>(all); },
-          "Where on segment a, from 0 to 1, float64.")
-      .def_property_readonly(
-          "t", [](const Contacts& all) { return array_of<&DeviceProximity::Contacts::t>(all); },
-          "Where on segment b.")
-      .def_property_readonly(
-          "distance",
-          [](const Contacts& all) { return array_of<&DeviceProximity::Contacts::distance>(all); },
-          "Signed gap of the surfaces [m], float64.")
-      .def_property_readonly(
-          "candidate_begins", &candidate_begins_of,
-          "Which contact is the first of each candidate, and how many there are: uint32, one more "
-          "than candidates. None without candidates.")
-      .def("to_host", &PythonDeviceContacts::to_host,
-           "All five as arrays of numpy, in a dict by their names. With candidates also "
-           "`candidate_begins`: which contact is the first of each, and how many there are.")
-      .def("__len__", &PythonDeviceContacts::count);
+  py::class_<PythonLockedPoints>(module, "LockedPoints",
+                                 "Points that a GPU reads where they lie, until they are released.")
+      .def("release", &PythonLockedPoints::release)
+      .def("__enter__", [](py::object self) { return self; })
+      .def("__exit__", [](PythonLockedPoints& self, const py::args& /*error*/) { self.release(); });
 
   py::class_<PythonDeviceProximity, std::shared_ptr<PythonDeviceProximity>>(module,
                                                                             "DeviceProximity", R"(
@@ -279,6 +111,31 @@ Finds all contacts within a finite margin [m]; a DeviceContacts.
 have contacts with what stands still alone.
 )")
       .def(
+          "query_to_host",
+          [](PythonDeviceProximity& self, double margin, std::int64_t neighbour_skip,
+             const std::string& pairing, bool with_itself) {
+            return to_host_arrays(self.query_to_host(to_device_options(
+                                      margin, py::int_(neighbour_skip), pairing, with_itself)),
+                                  self.candidate_count());
+          },
+          py::arg("margin") = 0.0, py::arg("neighbour_skip") = 1, py::arg("pairing") = "all",
+          py::arg("with_itself") = true, R"(
+The contacts of ``query()`` as ``to_host()`` has them: each part goes over while the next is found,
+into arrays that cannot be written. They stay as they are as long as they are held.
+)")
+      .def(
+          "lock_points",
+          [](PythonDeviceProximity& self, const py::object& points) {
+            return std::make_unique<PythonLockedPoints>(self, points);
+          },
+          py::arg("points"), R"(
+Page-locks an array of points (n, 3), float64 in C order, so that the GPU reads it by itself in
+each ``update()``: for arrays that are written anew and stay where they are. As long as the result
+is held, until its ``release()``, or in a ``with``. Takes as long as many frames.
+
+Raises TypeError for other arrays, ValueError if it is locked already.
+)")
+      .def(
           "check_candidates",
           [](PythonDeviceProximity& self, double margin, const py::object& neighbour_skip,
              const std::string& pairing, bool with_itself) {
@@ -292,7 +149,9 @@ Without ``neighbour_skip`` the rule of loops tells contacts of a fibre with itse
 as in ``check()``; else as in ``query()``. The first contact of a candidate ends what is looked for.
 )")
       .def_property_readonly("device_seconds", &PythonDeviceProximity::device_seconds,
-                             "What the last update and the last query took on the GPU [s].");
+                             "What the last update and the last query took on the GPU [s].")
+      .def_property_readonly("device_stages", &PythonDeviceProximity::device_stages,
+                             "What of that each stage took [s], by its name, in their order.");
 }
 
 }  // namespace fiber::python

@@ -282,7 +282,7 @@ array([1., 1.])
           "offsets",
           [](const Fibers& fibers) {
             const Fibers::State state = fibers.state();
-            return view(state->given_offsets(), keep(state));
+            return view(state->given_offsets().data(), state->given_offsets().size(), keep(state));
           },
           "(fibres + 1,) uint32, read-only: index of each fibre's first point, then the number of "
           "points.")

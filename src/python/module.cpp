@@ -12,6 +12,7 @@ PYBIND11_MODULE(_native, module) {
   fiber::python::bind_environment(module);
   fiber::python::bind_engine(module);
   fiber::python::bind_check(module);
+  fiber::python::bind_device_contacts(module);
   fiber::python::bind_device_proximity(module);
   fiber::python::bind_topology(module);
   fiber::python::bind_simulation(module);

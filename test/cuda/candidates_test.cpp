@@ -121,7 +121,7 @@ TEST(Candidates, OfAllFamiliesAreAlone) {
       ASSERT_EQ(device->candidate_count(), batch.candidates.size());
       device->update_from_host(batch.points);
       Options options = some_options(batch, random);
-      const DeviceProximity::HostArrays arrays = device->query_to_host(options);
+      const DeviceProximity::Contacts arrays = device->query_to_host(options);
       contacts += expect_candidates(arrays, arrays.count, batch, options);
       DeviceProximity::HostContacts copy;
       device->copy_to_host(device->query(options), copy);
@@ -155,7 +155,7 @@ TEST(Candidates, ThousandsThatOverlapAreAlone) {
   for (int frame = 0; frame < 2; ++frame) {
     device->update_from_host(batch.points);
     Options options{0.01};
-    const DeviceProximity::HostArrays arrays = device->query_to_host(options);
+    const DeviceProximity::Contacts arrays = device->query_to_host(options);
     EXPECT_GT(expect_candidates(arrays, arrays.count, batch, options), candidates.size() / 3);
     options.neighbour_skip.reset();
     const std::size_t touching = expect_touching(*device, batch, options);
@@ -180,7 +180,7 @@ TEST(Candidates, OfAnySizeAreAlone) {
     const std::unique_ptr<DeviceProximity> device = batch.make();
     device->update_from_host(batch.points);
     const Options options{0.02, 1};
-    const DeviceProximity::HostArrays arrays = device->query_to_host(options);
+    const DeviceProximity::Contacts arrays = device->query_to_host(options);
     EXPECT_GT(expect_candidates(arrays, arrays.count, batch, options), 100U);
     expect_touching(*device, batch, options);
   }

@@ -21,7 +21,7 @@ namespace fiber::test {
 namespace {
 
 /// @param contacts those of an engine, for the same
-void expect_arrays_of(const DeviceProximity::HostArrays& found, const FiberAssembly& fibers,
+void expect_arrays_of(const DeviceProximity::Contacts& found, const FiberAssembly& fibers,
                       const std::vector<Contact>& contacts) {
   ASSERT_EQ(found.count, contacts.size());
   for (std::size_t i = 0; i < contacts.size(); ++i) {
@@ -64,6 +64,18 @@ TEST(ContactsToHost, AreThoseOfRunTree) {
   EXPECT_GT(count, 1000U);
 }
 
+/// What contacts were, to see that they stay as they are.
+struct HeldContacts {
+  DeviceProximity::Contacts contacts;
+  std::vector<double> distances;
+
+  explicit HeldContacts(const DeviceProximity::Contacts& found)
+      : contacts(found), distances(found.distance, found.distance + found.count) {}
+  bool are_as_they_were() const {
+    return std::equal(distances.begin(), distances.end(), contacts.distance);
+  }
+};
+
 /// More contacts than there is room for on the device, on the host, or for the first parts only;
 /// then fewer, none, and more again.
 TEST(ContactsToHost, GrowAndShrinkFromFrameToFrame) {
@@ -75,11 +87,16 @@ TEST(ContactsToHost, GrowAndShrinkFromFrameToFrame) {
   const std::vector<Eigen::Vector3d>& points = fibers.points();
   const std::shared_ptr<void> lock = device.lock_points(points);
   std::size_t most = 0;
+  std::vector<HeldContacts> held;
   for (const double margin : {0.0, 0.02, 0.3, 0.0, 0.2, 3.0, 3.0, 0.3, 0.05}) {
     SCOPED_TRACE(margin);
     // Where they were locked.
     fibers.update_points(shaken(fibers, 0.01, random).points());
-    device.update_from_host(points);
+    if (random.chance(0.5)) {
+      device.update_from_host(points);
+    } else {
+      device.update_from_host(points.front().data());
+    }
     QueryOptions same = within(margin);
     same.neighbour_skip = 1;
     const std::vector<Contact> expected = answer("run_tree", fibers, same).contacts;
@@ -87,9 +104,13 @@ TEST(ContactsToHost, GrowAndShrinkFromFrameToFrame) {
     if (on_device_first) {
       EXPECT_EQ(device.query({margin}).count, expected.size());
     }
-    expect_arrays_of(device.query_to_host({margin}), fibers, expected);
+    const DeviceProximity::Contacts found = device.query_to_host({margin});
+    expect_arrays_of(found, fibers, expected);
     if (HasFatalFailure()) {
       return;
+    }
+    if (random.chance(0.5)) {
+      held.emplace_back(found);
     }
     most = std::max(most, expected.size());
   }
@@ -101,6 +122,17 @@ TEST(ContactsToHost, GrowAndShrinkFromFrameToFrame) {
   }
   device.update_from_host(apart);
   EXPECT_EQ(device.query_to_host({0.0}).count, 0U);
+  EXPECT_GT(held.size(), 2U);
+  for (const HeldContacts& before : held) {
+    EXPECT_TRUE(before.are_as_they_were());
+  }
+  EXPECT_EQ(
+      error_of([&] { device.update_from_host(nullptr); }),
+      "the points are a null pointer, the fibres have " + std::to_string(fibers.point_count()));
+  EXPECT_EQ(error_of([&] {
+              device.lock_points({{0.0, 0.0, 0.0}});
+            }),
+            "there are 1 points, the fibres have " + std::to_string(fibers.point_count()));
 }
 
 /// One after the other, and by another device in between: what is locked belongs to none.

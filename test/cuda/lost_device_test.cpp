@@ -132,7 +132,7 @@ void expect_recovery(bool is_for_good) {
       return;
     }
     std::shared_ptr<void> lock;
-    DeviceProximity::HostArrays arrays;
+    DeviceProximity::Contacts arrays;
     DeviceProximity::Contacts contacts;
     DeviceProximity::HostContacts copy;
     // Each once more where it fails. Contacts grow from one query to the next.
@@ -187,7 +187,7 @@ TEST(LostDevice, CandidatesTellOfIt) {
     const std::unique_ptr<DeviceProximity> device = make();
     device->update_from_host(batch.points);
     device->check_candidates(with_loops, expected);
-    const DeviceProximity::HostArrays arrays = device->query_to_host({});
+    const DeviceProximity::Contacts arrays = device->query_to_host({});
     begins.assign(arrays.candidate_begins, arrays.candidate_begins + coils.size() + 1);
   }
   const auto touching_count = std::count(expected.begin(), expected.end(), 1);
@@ -196,7 +196,7 @@ TEST(LostDevice, CandidatesTellOfIt) {
     for_each_failure(is_for_good, [&] {
       std::unique_ptr<DeviceProximity> device;
       std::vector<std::uint8_t> touching;
-      DeviceProximity::HostArrays arrays;
+      DeviceProximity::Contacts arrays;
       const auto step = [&](const std::function<void()>& work) {
         return succeeds(work) || (succeeds(work) && !is_for_good);
       };

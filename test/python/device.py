@@ -117,6 +117,73 @@ class Device(unittest.TestCase):
         self.assertEqual(own + len(proximity.query(pairing='different_fibers')), whole)
         self.assertGreater(own, 0)
 
+    def test_contacts_come_to_the_host_and_stay(self):
+        points, offsets = walks(7)
+        proximity = fp.DeviceProximity(offsets, 0.01, device='host')
+        proximity.update(points)
+        expected = proximity.query(margin=0.01, pairing='different_fibers').to_host()
+        found = proximity.query_to_host(margin=0.01, pairing='different_fibers')
+        self.assertEqual(list(found), ['a', 'b', 's', 't', 'distance'])
+        self.assertGreater(len(found['a']), 100)
+        for name, values in expected.items():
+            self.assertEqual(found[name].dtype, values.dtype)
+            np.testing.assert_array_equal(found[name], values)
+            with self.assertRaisesRegex(ValueError, 'read-only'):
+                found[name][0] = 0
+        distance = found['distance']
+        del found
+        proximity.update(points + 0.01 * np.random.default_rng(8).normal(size=points.shape))
+        for margin in 0.02, 0.0, 0.1:
+            self.assertFalse(np.array_equal(proximity.query_to_host(margin=margin)['distance'], distance))
+        np.testing.assert_array_equal(distance, expected['distance'])
+        proximity.update(points + 10.0 * np.arange(1000)[:, None])
+        self.assertEqual({len(values) for values in proximity.query_to_host().values()}, {0})
+        del proximity
+        np.testing.assert_array_equal(distance, expected['distance'])
+
+    def test_candidates_come_to_the_host(self):
+        points, offsets = walks(9)
+        proximity = fp.DeviceProximity(offsets, 0.01, device='host', candidates=[0, 5, 5, 20])
+        proximity.update(points)
+        begins = proximity.query_to_host()['candidate_begins']
+        np.testing.assert_array_equal(begins, proximity.query().to_host()['candidate_begins'])
+        self.assertEqual(len(begins), 4)
+
+    def test_locks_points_where_they_lie(self):
+        points, offsets = walks(10)
+        proximity = fp.DeviceProximity(offsets, 0.01, device='host')
+        proximity.update(points)
+        expected = len(proximity.query())
+        with proximity.lock_points(points):
+            moved = points + 10.0 * np.arange(1000)[:, None]
+            points[:], moved = moved, points.copy()
+            proximity.update(points)
+            self.assertEqual(len(proximity.query()), 0)
+            points[:] = moved
+            proximity.update(points)
+            self.assertEqual(len(proximity.query()), expected)
+        held = proximity.lock_points(points)
+        held.release()
+        held.release()
+        for other in points.astype(np.float32), np.asfortranarray(points), points.tolist(), points[::-1]:
+            with self.assertRaisesRegex(TypeError, 'float64 in C order'):
+                proximity.lock_points(other)
+        for call in proximity.lock_points, proximity.update:
+            with self.assertRaisesRegex(ValueError, 'there are 999 points, the fibres have 1000'):
+                call(points[:-1])
+            with self.assertRaisesRegex(ValueError, r'shape \(3000,\), it must be \(n, 3\)'):
+                call(points.ravel())
+
+    def test_tells_what_each_stage_took(self):
+        points, offsets = walks(11)
+        proximity = fp.DeviceProximity(offsets, 0.01, device='host')
+        proximity.update(ByDLPack(points))
+        proximity.query()
+        stages = proximity.device_stages
+        self.assertEqual(list(stages), ['points', 'bounds', 'order', 'tree', 'pairs', 'order of pairs', 'contacts'])
+        self.assertGreater(min(stages.values()), 0.0)
+        self.assertAlmostEqual(sum(stages.values()), proximity.device_seconds)
+
     def test_contacts_stay_as_long_as_they_are_held(self):
         points, offsets = walks(3)
         proximity = fp.DeviceProximity(offsets, 0.01, device='host')

@@ -35,8 +35,9 @@ class DeviceProximity {
     bool with_itself = true;         ///< candidates: contacts of each with itself count
   };
 
-  /// Arrays on the device of `count` values each, sorted by a, then b. They stay as they are as
-  /// long as `memory` is held; a query() while it is held takes other memory.
+  /// Arrays of `count` values each, sorted by a, then b: of query() on the device, of
+  /// query_to_host() in memory of the host. They stay as they are as long as `memory` is held; a
+  /// query while it is held takes other memory.
   struct Contacts {
     std::uint32_t count = 0;
     const std::uint32_t* a = nullptr;  ///< first points of the segments, a < b
@@ -48,18 +49,6 @@ class DeviceProximity {
     /// are; null without candidates.
     const std::uint32_t* candidate_begins = nullptr;
     std::shared_ptr<const void> memory;
-  };
-
-  /// The same arrays in memory of the host, of the object that has found them: to be read until its
-  /// next query_to_host(), or its end.
-  struct HostArrays {
-    std::uint32_t count = 0;
-    const std::uint32_t* a = nullptr;
-    const std::uint32_t* b = nullptr;
-    const double* s = nullptr;
-    const double* t = nullptr;
-    const double* distance = nullptr;
-    const std::uint32_t* candidate_begins = nullptr;
   };
 
   /// The same in memory of the caller: 32 bytes each.
@@ -114,6 +103,10 @@ class DeviceProximity {
   /// @throws std::invalid_argument for another number of points, and naming the first that cannot
   /// be
   void update_from_host(const std::vector<Eigen::Vector3d>& points);
+  /// Updates to as many points as there are, in an array of others.
+  /// @param coordinates on the host, three per point [m]
+  /// @throws std::invalid_argument for a null pointer, too
+  void update_from_host(const double* coordinates);
 
   /// Page-locks the memory of points that stay where they are from frame to frame, for as long as
   /// the result is held: they must be neither freed nor moved before it is let go. Takes as long as
@@ -121,6 +114,8 @@ class DeviceProximity {
   /// @throws std::invalid_argument if they are locked already, std::runtime_error where they cannot
   ///         be
   std::shared_ptr<void> lock_points(const std::vector<Eigen::Vector3d>& points) const;
+  /// Locks an array that update_from_host() will take.
+  std::shared_ptr<void> lock_points(const double* coordinates) const;
 
   /// Finds the contacts, and waits until they are there.
   /// @throws std::invalid_argument for a margin that is not allowed and without neighbour_skip,
@@ -129,9 +124,9 @@ class DeviceProximity {
   Contacts query(const Options& options) const;
 
   /// Finds the contacts for the host: each part goes there while the device decides about the next,
-  /// into page-locked memory of this object, without a further copy.
+  /// into page-locked memory, without a further copy.
   /// @throws as query()
-  HostArrays query_to_host(const Options& options) const;
+  Contacts query_to_host(const Options& options) const;
 
   /// Copies contacts of a query() to the host, into the memory there is.
   void copy_to_host(const Contacts& contacts, HostContacts& copy) const;
@@ -160,6 +155,7 @@ class DeviceProximity {
   template <class Number>
   void take(const Number* coordinates);
   void take_topology(std::vector<double> radii, std::vector<std::uint32_t>* candidates);
+  void require_count(const std::vector<Eigen::Vector3d>& points) const;
   PairRule rule_of(const Options& options) const;
   PairRule rule_of_contacts(const Options& options) const;
 

@@ -29,7 +29,7 @@ del extend_path
 
 __all__ = [
     'CANDIDATE', 'CheckResult', 'DeviceArray', 'DeviceContacts', 'DeviceProximity', 'Engine', 'Environment', 'FIBER', 'Fibers', 'Forces',
-    'MotionResult', 'OBJECT', 'QueryResult', 'Robot', 'SHAPE', 'Simulation',
+    'LockedPoints', 'MotionResult', 'OBJECT', 'QueryResult', 'Robot', 'SHAPE', 'Simulation',
     'candidate_contact_dtype', 'candidate_motion_contact_dtype', 'check', 'check_motions',
     'contact_dtype', 'crossing_dtype', 'crossings', 'engine_names', 'from_msg', 'gradients',
     'linking_dtype', 'linking_number', 'linking_numbers', 'message_contact_dtype',
