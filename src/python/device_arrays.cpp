@@ -17,7 +17,7 @@ namespace {
 // have name the same members differently.
 
 enum DLDeviceType : std::int32_t { CPU = 1, CUDA = 2, CUDA_HOST = 3, CUDA_MANAGED = 13 };
-enum DLDataTypeCode : std::uint8_t { UINT = 1, FLOAT = 2 };
+enum DLDataTypeCode : std::uint8_t { INT = 0, FLOAT = 2 };
 
 struct DLDevice {
   std::int32_t type;
@@ -185,7 +185,7 @@ py::dict to_cuda_array_interface(const DeviceValues& values) {
   }
   py::dict interface;
   interface["shape"] = py::make_tuple(values.count);
-  interface["typestr"] = values.size == sizeof(double) ? "<f8" : "<u4";
+  interface["typestr"] = values.size == sizeof(double) ? "<f8" : "<i4";
   interface["data"] = py::make_tuple(reinterpret_cast<std::uintptr_t>(values.data), true);
   interface["version"] = 3;
   return interface;
@@ -210,7 +210,7 @@ py::capsule to_dlpack(const DeviceValues& values, std::shared_ptr<const void> ow
       const_cast<void*>(values.data),
       {values.gpu ? CUDA : CPU, values.gpu.value_or(0)},
       1,
-      {is_double ? FLOAT : UINT, static_cast<std::uint8_t>(8 * values.size), 1},
+      {is_double ? FLOAT : INT, static_cast<std::uint8_t>(8 * values.size), 1},
       &shared->shape,
       nullptr,
       0};

@@ -33,7 +33,7 @@ struct DevicePoints {
 struct DeviceValues {
   const void* data = nullptr;
   std::size_t count = 0;
-  std::size_t size = 0;    ///< [bytes] of each: 4 for uint32, 8 for float64
+  std::size_t size = 0;    ///< [bytes] of each: 4 for int32, 8 for float64
   std::optional<int> gpu;  ///< nothing for memory of the host
 };
 

@@ -1,6 +1,9 @@
 #include "src/python/device_contacts.hpp"
 
+#include <cstdint>
+#include <limits>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -51,18 +54,28 @@ py::capsule dlpack_of(const PythonDeviceArray& array, const py::object& /*stream
 
 }  // namespace
 
+void require_int32(std::uint32_t contact_count) {
+  if (contact_count > static_cast<std::uint32_t>(std::numeric_limits<std::int32_t>::max())) {
+    throw std::overflow_error(std::to_string(contact_count) +
+                              " contacts of candidates, candidate_begins counts to 2147483647: ask "
+                              "fewer candidates at once");
+  }
+}
+
 py::dict to_host_arrays(const DeviceProximity::Contacts& contacts, std::size_t candidates) {
   const py::capsule owner = keep(contacts.memory);
   const std::size_t count = contacts.count;
   const std::vector<Py_ssize_t> shape{static_cast<Py_ssize_t>(count)};
   py::dict arrays;
-  arrays["a"] = view(contacts.a, count, owner);
-  arrays["b"] = view(contacts.b, count, owner);
+  arrays["a"] = view(contacts.a, count, owner).attr("view")("i4");
+  arrays["b"] = view(contacts.b, count, owner).attr("view")("i4");
   arrays["s"] = view(contacts.s, shape, owner);
   arrays["t"] = view(contacts.t, shape, owner);
   arrays["distance"] = view(contacts.distance, shape, owner);
   if (contacts.candidate_begins != nullptr) {
-    arrays["candidate_begins"] = view(contacts.candidate_begins, candidates + 1, owner);
+    require_int32(contacts.count);
+    arrays["candidate_begins"] =
+        view(contacts.candidate_begins, candidates + 1, owner).attr("view")("i4");
   }
   return arrays;
 }
@@ -90,7 +103,7 @@ void bind_device_contacts(py::module& module) {
       "the next query() takes other memory.")
       .def_property_readonly(
           "a", [](const Contacts& all) { return array_of<&DeviceProximity::Contacts::a>(all); },
-          "First points of the segments, uint32, the smaller one of each pair.")
+          "First points of the segments, int32, the smaller one of each pair.")
       .def_property_readonly(
           "b", [](const Contacts& all) { return array_of<&DeviceProximity::Contacts::b>(all); },
           "The other ones.")
@@ -106,7 +119,7 @@ void bind_device_contacts(py::module& module) {
           "Signed gap of the surfaces [m], float64.")
       .def_property_readonly(
           "candidate_begins", &candidate_begins_of,
-          "Which contact is the first of each candidate, and how many there are: uint32, one more "
+          "Which contact is the first of each candidate, and how many there are: int32, one more "
           "than candidates. None without candidates.")
       .def("to_host", &PythonDeviceContacts::to_host,
            "All five as arrays of numpy, in a dict by their names. With candidates also "

@@ -8,6 +8,13 @@
 
 namespace fiber::python {
 
+// Numbers of points are below 2^31 (SegmentTreeView::max_segments). They are given as int32: torch
+// takes no uint32, and nobody else indexes by it.
+
+/// Where the contacts of candidates begin is int32, too.
+/// @throws std::overflow_error for more contacts than that counts
+void require_int32(std::uint32_t contact_count);
+
 /// The contacts of one query: there as long as somebody holds it, or an array that was taken of it.
 class PythonDeviceContacts {
  public:
@@ -24,6 +31,7 @@ class PythonDeviceContacts {
 
   bool has_candidates() const { return contacts_.candidate_begins != nullptr; }
   DeviceValues candidate_begins() const {
+    require_int32(contacts_.count);
     return {contacts_.candidate_begins, of_->candidate_count() + 1, sizeof(std::uint32_t),
             of_->gpu()};
   }
@@ -32,13 +40,14 @@ class PythonDeviceContacts {
     DeviceProximity::HostContacts copy;
     of_->copy_to_host(contacts_, copy);
     py::dict arrays;
-    arrays["a"] = to_array(py::dtype("u4"), copy.a);
-    arrays["b"] = to_array(py::dtype("u4"), copy.b);
+    arrays["a"] = to_array(py::dtype("i4"), copy.a);
+    arrays["b"] = to_array(py::dtype("i4"), copy.b);
     arrays["s"] = to_array(py::dtype("f8"), copy.s);
     arrays["t"] = to_array(py::dtype("f8"), copy.t);
     arrays["distance"] = to_array(py::dtype("f8"), copy.distance);
     if (!copy.candidate_begins.empty()) {
-      arrays["candidate_begins"] = to_array(py::dtype("u4"), copy.candidate_begins);
+      require_int32(contacts_.count);
+      arrays["candidate_begins"] = to_array(py::dtype("i4"), copy.candidate_begins);
     }
     return arrays;
   }

@@ -92,11 +92,12 @@ class Device(unittest.TestCase):
         contacts = proximity.query()
         self.assertIsNone(contacts.candidate_begins)
         arrays = contacts.to_host()
-        for name, type in ('a', np.uint32), ('b', np.uint32), ('s', float), ('t', float), ('distance', float):
+        for name, type in ('a', np.int32), ('b', np.int32), ('s', float), ('t', float), ('distance', float):
             array = getattr(contacts, name)
             self.assertEqual(array.__dlpack_device__(), (1, 0))
             shared = np.from_dlpack(array)
-            self.assertEqual(shared.dtype, type)
+            self.assertEqual(shared.dtype, type)  # torch takes no uint32
+            self.assertEqual(arrays[name].dtype, type)
             np.testing.assert_array_equal(shared, arrays[name])
             with self.assertRaisesRegex(BufferError, r'on the device \(1, 0\)'):
                 array.__dlpack__(dl_device=(2, 0))
@@ -107,6 +108,27 @@ class Device(unittest.TestCase):
         last = np.from_dlpack(contacts.distance)
         del proximity, contacts, array
         np.testing.assert_array_equal(last, arrays['distance'])
+
+    def test_torch_has_the_arrays(self):
+        try:
+            import torch
+        except ImportError:
+            self.skipTest('no torch')
+        points, offsets = walks(12)
+        proximity = fp.DeviceProximity(offsets, 0.01, device='host')
+        for kind in torch.float32, torch.float64:
+            tensor = torch.from_numpy(points).to(kind)
+            proximity.update(tensor)
+            contacts = proximity.query(margin=0.01)
+            arrays = contacts.to_host()
+            for name in 'a', 'b', 's', 't', 'distance':
+                np.testing.assert_array_equal(torch.from_dlpack(getattr(contacts, name)).numpy(), arrays[name])
+            ends = tensor[torch.from_dlpack(contacts.a).long()]
+            self.assertEqual(tuple(ends.shape), (len(contacts), 3))
+        with self.assertRaisesRegex(TypeError, 'float32 or float64'):
+            proximity.update(tensor.half())
+        with self.assertRaisesRegex(ValueError, 'C order'):
+            proximity.update(tensor.T.contiguous().T)
 
     def test_takes_points_of_the_host(self):
         points, offsets = walks(2)
