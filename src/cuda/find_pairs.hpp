@@ -82,7 +82,7 @@ struct FindPairs {
             ++size;
           });
       warp_.sync();
-      while (size > 0 && !what_.taker.is_over(first_candidate_, last_candidate_)) {
+      while (size > 0 && !what_.taker.is_over(warp_, first_candidate_, last_candidate_)) {
         --size;
         const std::uint32_t entry = scratch_.stack[size];
         warp_.sync();

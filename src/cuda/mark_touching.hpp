@@ -20,15 +20,11 @@ struct MarkTouching {
   std::uint32_t* touching;  ///< by candidate, 1 or 0
   WritePairs asked;
 
-  /// Marks are seen early or late; what is missed by it is only looked for in vain.
-  FIBER_ON_DEVICE bool is_over(std::uint32_t first, std::uint32_t last) const {
-    for (std::uint32_t candidate = first; candidate <= last && candidate < candidates.count;
-         ++candidate) {
-      if (!is_marked(candidate)) {
-        return false;
-      }
-    }
-    return true;
+  /// Marks are seen early or late; what is missed by it is only looked for in vain. Lanes may see
+  /// them at different times, and must not go different ways for it.
+  template <class Warp>
+  FIBER_ON_DEVICE bool is_over(Warp warp, std::uint32_t first, std::uint32_t last) const {
+    return warp.ballot([&](int /*lane*/) { return are_marked(first, last); }) != 0;
   }
 
   template <class Warp, class Key>
@@ -41,6 +37,16 @@ struct MarkTouching {
   }
 
  private:
+  FIBER_ON_DEVICE bool are_marked(std::uint32_t first, std::uint32_t last) const {
+    for (std::uint32_t candidate = first; candidate <= last && candidate < candidates.count;
+         ++candidate) {
+      if (!is_marked(candidate)) {
+        return false;
+      }
+    }
+    return true;
+  }
+
   /// Marks the candidate of a contact, unless that needs a loop.
   FIBER_ON_DEVICE bool needs_to_be_asked(std::uint64_t key) const {
     const auto a = static_cast<std::uint32_t>(key >> 32U);

@@ -13,7 +13,9 @@ struct WritePairs {
   std::uint64_t* count;  ///< of all that were found, also of those there was no room for
 
   /// Whether no more is wanted of these candidates.
-  FIBER_ON_DEVICE bool is_over(std::uint32_t /*first*/, std::uint32_t /*last*/) const {
+  template <class Warp>
+  FIBER_ON_DEVICE bool is_over(Warp /*warp*/, std::uint32_t /*first*/,
+                               std::uint32_t /*last*/) const {
     return false;
   }
 
