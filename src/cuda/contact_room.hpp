@@ -47,10 +47,10 @@ class HeldRoom {
   /// To be called before others are written.
   void leave_what_is_held() {
     if (room_.use_count() > 1) {
-      std::swap(room_, before_);
-      if (room_ == nullptr || room_.use_count() > 1) {
-        room_ = std::make_shared<Room>();
+      if (before_ == nullptr || before_.use_count() > 1) {
+        before_ = std::make_shared<Room>();
       }
+      std::swap(room_, before_);
     }
   }
 

@@ -27,13 +27,6 @@
 namespace fiber {
 namespace {
 
-/// That of this thread, as CUDA counts them.
-int current_gpu() {
-  int current = 0;
-  check(cudaGetDevice(&current));
-  return current;
-}
-
 constexpr int warps_per_block = 4;
 constexpr int threads_per_block = warps_per_block * warp_width;
 
@@ -133,26 +126,9 @@ class CudaExecutor {
     cudaEvent_t event_ = nullptr;
   };
 
-  /// While it lives, the calls of this thread go to the executor's GPU, whichever others have
-  /// chosen, which is theirs again afterwards.
-  class Turn {
+  class Turn : GpuTurn {
    public:
-    explicit Turn(const CudaExecutor& executor) : own_(executor.own_) {
-      if (others_ != own_) {
-        check(cudaSetDevice(own_));
-      }
-    }
-    ~Turn() {
-      if (others_ != own_) {
-        cudaSetDevice(others_);
-      }
-    }
-    Turn(const Turn&) = delete;
-    Turn& operator=(const Turn&) = delete;
-
-   private:
-    int own_;
-    int others_ = current_gpu();
+    explicit Turn(const CudaExecutor& executor) : GpuTurn(executor.own_) {}
   };
 
   CudaExecutor() = default;
@@ -171,7 +147,14 @@ class CudaExecutor {
       return;
     }
     to.resize(count);
-    check(cudaMemcpyAsync(to.data(), from, count * sizeof(T), cudaMemcpyHostToDevice, stream_));
+    const cudaError_t error =
+        cudaMemcpyAsync(to.data(), from, count * sizeof(T), cudaMemcpyHostToDevice, stream_);
+    if (error == cudaErrorInvalidValue) {
+      cudaGetLastError();  // not all of it is page-locked, or not by one lock
+      upload(from, count, to);
+      return;
+    }
+    check(error);
   }
 
   template <class T>
@@ -292,7 +275,7 @@ class CudaExecutor {
   const int own_ = current_gpu();
   Stream stream_;
   Stream sending_;
-  PinnedPieces pinned_;
+  PinnedPieces pinned_{own_};
   Buffer<char> memory_;
   Buffer<std::uint32_t> other_keys_;
   Buffer<std::uint32_t> other_values_;

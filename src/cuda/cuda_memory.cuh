@@ -24,6 +24,35 @@ inline void check(cudaError_t error) {
   }
 }
 
+/// That of this thread, as CUDA counts them.
+inline int current_gpu() {
+  int current = 0;
+  check(cudaGetDevice(&current));
+  return current;
+}
+
+/// While it lives, the calls of this thread go to one GPU, whichever others have chosen, which is
+/// theirs again afterwards.
+class GpuTurn {
+ public:
+  explicit GpuTurn(int gpu) : gpu_(gpu) {
+    if (others_ != gpu_) {
+      check(cudaSetDevice(gpu_));
+    }
+  }
+  ~GpuTurn() {
+    if (others_ != gpu_) {
+      cudaSetDevice(others_);
+    }
+  }
+  GpuTurn(const GpuTurn&) = delete;
+  GpuTurn& operator=(const GpuTurn&) = delete;
+
+ private:
+  int gpu_;
+  int others_ = current_gpu();
+};
+
 /// Memory of the GPU, an eighth more than is needed: finding some takes the GPU longer than a
 /// query.
 struct CudaMemory {

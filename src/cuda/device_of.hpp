@@ -46,6 +46,7 @@ class DeviceOf final : public Device {
 
   DeviceContacts contacts(const DeviceTree& tree, const PairRule& rule, double margin) override {
     const Turn turn(*executor_);
+    wait_for_readers();
     clock_.start(*executor_);
     const std::uint32_t count = search_for_contacts(tree, rule);
     // They are there when it returns: others may read them.
@@ -63,6 +64,7 @@ class DeviceOf final : public Device {
   DeviceContacts contacts_to_host(const DeviceTree& tree, const PairRule& rule,
                                   double margin) override {
     const Turn turn(*executor_);
+    wait_for_readers();
     clock_.start(*executor_);
     const std::uint32_t count = search_for_contacts(tree, rule);
     DeviceContacts contacts =
@@ -86,10 +88,10 @@ class DeviceOf final : public Device {
     const CandidateView& candidates = tree.candidates();
     touching.assign(candidates.count, 0);
     asked.clear();
+    clock_.start(*executor_);
     if (leaf_count(tree) == 0) {
       return;
     }
-    clock_.start(*executor_);
     touching_.resize(candidates.count);
     executor_->zero(touching_);
     const std::uint64_t found =
@@ -151,6 +153,9 @@ class DeviceOf final : public Device {
 
   static constexpr std::uint64_t first_room = 1024;
   static constexpr std::uint64_t max_pairs = Executor::max_values;
+
+  /// Contacts that somebody has let go of may still be read by what he has given the device before.
+  void wait_for_readers() { executor_->wait_for_others(); }
 
   /// The pairs, sorted, in pairs_; none if there are more than `most`.
   std::uint64_t search(const DeviceTree& a, std::uint32_t first_leaf, std::uint32_t leaf_count,

@@ -112,6 +112,9 @@ std::shared_ptr<void> DeviceProximity::lock_points(
 }
 
 std::shared_ptr<void> DeviceProximity::lock_points(const double* coordinates) const {
+  if (point_count() == 0) {
+    return nullptr;
+  }
   return device_->lock_pages(coordinates, point_count() * sizeof(Eigen::Vector3d));
 }
 

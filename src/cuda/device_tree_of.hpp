@@ -59,9 +59,16 @@ class DeviceTreeOf final : public DeviceTree {
     if (segment_count_ == 0) {
       return;
     }
-    executor_->upload_in_place(fibers.coordinates, 3 * fibers.point_count, coordinates_);
-    clock_.start(*executor_);
-    if (build(fibers) != 0) {
+    std::uint64_t bad_count = 0;
+    try {
+      executor_->upload_in_place(fibers.coordinates, 3 * fibers.point_count, coordinates_);
+      clock_.start(*executor_);
+      bad_count = build(fibers);
+    } catch (...) {
+      executor_->wait_for_others();  // the device may still read the points
+      throw;
+    }
+    if (bad_count != 0) {
       refuse_points(fibers);
     }
   }

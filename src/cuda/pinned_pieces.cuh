@@ -20,6 +20,8 @@ class PinnedPieces {
  public:
   static constexpr std::size_t piece_bytes = std::size_t{1} << 19U;
 
+  explicit PinnedPieces(int gpu) : gpu_(gpu) {}
+
   void upload(const void* from, std::size_t bytes, void* to, cudaStream_t stream) {
     in_pieces(bytes, [=](const Piece& piece, std::size_t begin, std::size_t size) {
       check(cudaEventSynchronize(piece.done));  // the GPU has read what was there
@@ -80,6 +82,7 @@ class PinnedPieces {
   template <class Use>
   void in_pieces(std::size_t bytes, const Use& use) {
     on_threads((bytes + piece_bytes - 1) / piece_bytes, [&](std::size_t job) {
+      const GpuTurn turn(gpu_);  // threads that help have chosen none
       const std::size_t begin = job * piece_bytes;
       std::unique_ptr<Piece> piece = take();
       use(*piece, begin, std::min(piece_bytes, bytes - begin));
@@ -99,6 +102,7 @@ class PinnedPieces {
     return piece;
   }
 
+  int gpu_;
   std::mutex mutex_;
   std::deque<std::unique_ptr<Piece>> idle_;
 };

@@ -133,8 +133,10 @@ void require_device(std::int32_t device, bool on_gpu) {
 
 /// The capsule lets go of the array as it ends: it is not taken out of it.
 DevicePoints from_dlpack(const py::object& points, bool on_gpu, std::size_t point_count) {
-  const auto capsule = points.attr("__dlpack__")().cast<py::capsule>();
-  if (capsule.name() == nullptr || std::strcmp(capsule.name(), capsule_name) != 0) {
+  const py::object given = points.attr("__dlpack__")();
+  const bool is_capsule = py::isinstance<py::capsule>(given);
+  const py::capsule capsule = is_capsule ? py::capsule(given) : py::capsule();
+  if (!is_capsule || capsule.name() == nullptr || std::strcmp(capsule.name(), capsule_name) != 0) {
     throw py::type_error("__dlpack__() of the points must give a capsule named 'dltensor'");
   }
   const DLTensor& tensor = static_cast<const DLManagedTensor*>(capsule)->tensor;

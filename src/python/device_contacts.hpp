@@ -9,7 +9,7 @@
 namespace fiber::python {
 
 // Numbers of points are below 2^31 (SegmentTreeView::max_segments). They are given as int32: torch
-// takes no uint32, and nobody else indexes by it.
+// takes no uint32.
 
 /// Where the contacts of candidates begin is int32, too.
 /// @throws std::overflow_error for more contacts than that counts

@@ -5,6 +5,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "src/python/arrays.hpp"
 #include "src/python/bindings.hpp"
@@ -38,22 +39,28 @@ DeviceProximity::Options to_device_options(double margin, const py::object& neig
 /// An array of points that stays where it is for as long as this is held, and not released.
 class PythonLockedPoints {
  public:
-  PythonLockedPoints(PythonDeviceProximity& of, const py::object& points) : points_(points) {
+  PythonLockedPoints(std::shared_ptr<PythonDeviceProximity> of, const py::object& points)
+      : of_(std::move(of)), points_(points) {
     if (!py::isinstance<Doubles>(points)) {
       throw py::type_error(
           "points that are locked must be an array of numpy, of float64 in C order: of others a "
           "copy is taken in each update");
     }
-    lock_ = of.lock(to_point_array(points, "points"));
+    lock_ = of_->lock(to_point_array(points, "points"));
   }
+  ~PythonLockedPoints() { of_->release(lock_); }
+  PythonLockedPoints(const PythonLockedPoints&) = delete;
+  PythonLockedPoints& operator=(const PythonLockedPoints&) = delete;
+
   void release() {
-    lock_.reset();
+    of_->release(lock_);
     points_ = py::none();
   }
 
  private:
+  std::shared_ptr<PythonDeviceProximity> of_;
   py::object points_;
-  std::shared_ptr<void> lock_;  // let go before the points are
+  std::shared_ptr<void> lock_;
 };
 
 }  // namespace
@@ -125,7 +132,7 @@ into arrays that cannot be written. They stay as they are as long as they are he
 )")
       .def(
           "lock_points",
-          [](PythonDeviceProximity& self, const py::object& points) {
+          [](const std::shared_ptr<PythonDeviceProximity>& self, const py::object& points) {
             return std::make_unique<PythonLockedPoints>(self, points);
           },
           py::arg("points"), R"(

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "fiber_proximity/cuda/device_proximity.hpp"
+#include "src/cuda/device_of.hpp"
+#include "src/cuda/host_executor.hpp"
 #include "test/support/answers.hpp"
 #include "test/support/assemblies.hpp"
 #include "test/support/contacts.hpp"
@@ -44,6 +46,31 @@ TEST(SharedDevice, ContactsStayAsLongAsTheyAreHeld) {
   for (std::size_t i = 0; i < held.size(); ++i) {
     SCOPED_TRACE(i);
     expect_same(arrays, held[i], fibers, expected[i]);
+  }
+}
+
+/// Counts how often others are waited for.
+class WaitingExecutor : public HostExecutor<HeapMemory> {
+ public:
+  void wait_for_others() { ++waits; }
+  int waits = 0;
+};
+
+/// Whoever has let go of contacts may have given the device work that reads them.
+TEST(SharedDevice, WaitsForThoseWhoReadContactsBefore) {
+  Random random;
+  const FiberAssembly fibers = walks(random, 6, 40, 0.05, 0.02);
+  const auto executor = std::make_shared<WaitingExecutor>();
+  DeviceProximity device(std::make_unique<DeviceOf<WaitingExecutor>>(executor), fibers.offsets(),
+                         fibers.radii());
+  device.update_from_host(fibers.points());
+  for (int i = 0; i < 3; ++i) {
+    const int before = executor->waits;
+    EXPECT_GT(device.query({0.1}).count, 0U);
+    EXPECT_GT(executor->waits, before);
+    const int between = executor->waits;
+    EXPECT_GT(device.query_to_host({0.1}).count, 0U);
+    EXPECT_GT(executor->waits, between);
   }
 }
 

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
 """Contacts that stay on a device: here the processor in its place."""
+import threading
 import unittest
 
 import numpy as np
@@ -30,6 +31,12 @@ class ByDLPack:
 
     def __dlpack_device__(self):
         return self.device
+
+
+class NoCapsule(ByDLPack):
+
+    def __dlpack__(self, stream=None):
+        return None
 
 
 def walks(seed, fibers=20, points=50):
@@ -206,6 +213,33 @@ class Device(unittest.TestCase):
         self.assertGreater(min(stages.values()), 0.0)
         self.assertAlmostEqual(sum(stages.values()), proximity.device_seconds)
 
+    def test_serves_several_threads(self):
+        points, offsets = walks(13)
+        proximity = fp.DeviceProximity(offsets, 0.01, device='host')
+        proximity.update(points)
+        expected = proximity.query_to_host()['distance']
+        is_over = threading.Event()
+        seen = []
+
+        def look():
+            while not is_over.is_set():
+                seen.append((len(proximity.device_stages), proximity.device_seconds > 0.0))
+
+        threads = [threading.Thread(target=look) for _ in range(3)]
+        for thread in threads:
+            thread.start()
+        try:
+            for _ in range(100):
+                with proximity.lock_points(points):
+                    proximity.update(points)
+                np.testing.assert_array_equal(proximity.query_to_host()['distance'], expected)
+        finally:
+            is_over.set()
+            for thread in threads:
+                thread.join()
+        self.assertGreater(len(seen), 100)
+        self.assertEqual(set(seen), {(6, True)})
+
     def test_contacts_stay_as_long_as_they_are_held(self):
         points, offsets = walks(3)
         proximity = fp.DeviceProximity(offsets, 0.01, device='host')
@@ -264,6 +298,8 @@ class Device(unittest.TestCase):
         del without.__cuda_array_interface__['shape']
         with self.assertRaisesRegex(TypeError, r"the points have no __cuda_array_interface__\['shape'\]"):
             proximity.update(without)
+        with self.assertRaisesRegex(TypeError, "a capsule named 'dltensor'"):
+            proximity.update(NoCapsule(points))
         with self.assertRaisesRegex(TypeError, r"__dlpack_device__\(\) of the points is \('x', 0\)"):
             proximity.update(ByDLPack(points, ('x', 0)))
         with self.assertRaisesRegex(ValueError, 'cuda_tree takes at most 134217728 segments'):
