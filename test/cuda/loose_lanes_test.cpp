@@ -136,8 +136,8 @@ TEST(LooseLanes, CheckCandidatesAlike) {
     touching += std::count(expected.begin(), expected.end(), 1);
     free += std::count(expected.begin(), expected.end(), 0);
   }
-  EXPECT_GT(touching, 10);
-  EXPECT_GT(free, 10);
+  EXPECT_GT(touching, 0);
+  EXPECT_GT(free, 0);
 }
 
 }  // namespace
