@@ -117,14 +117,15 @@ class DeviceProximity {
   /// Locks an array that update_from_host() will take.
   std::shared_ptr<void> lock_points(const double* coordinates) const;
 
-  /// Finds the contacts, and waits until they are there.
+  /// Finds the contacts, and waits until they are there. Before, it waits until all that the device
+  /// has been given is done: that may read contacts that were let go of.
   /// @throws std::invalid_argument for a margin that is not allowed and without neighbour_skip,
   ///         std::logic_error before the first update(), std::runtime_error where the device's
   ///         memory does not suffice, saying how much was needed
   Contacts query(const Options& options) const;
 
   /// Finds the contacts for the host: each part goes there while the device decides about the next,
-  /// into page-locked memory, without a further copy.
+  /// into page-locked memory, without a further copy. Waits as query() does.
   /// @throws as query()
   Contacts query_to_host(const Options& options) const;
 
