@@ -24,8 +24,7 @@ struct PairRule {
 /// A warp goes down the other tree with the box around its leaf, a lane a child; the children that
 /// are near wait on a stack. At a leaf each of its segments is held against that leaf's box, and
 /// each of the other's against the warp's; then the warp runs over the fewer of the two. Pairs
-/// whose boxes overlap wait in a queue until every lane has one, so that all take part in the test
-/// of distance.
+/// whose boxes overlap wait in a queue until every lane has one for the test of distance.
 /// @tparam Taker what becomes of them: WritePairs has what it can
 template <class Taker>
 struct FindPairs {
@@ -201,8 +200,7 @@ struct FindPairs {
       queue_hits(other, over_theirs, hits);
     }
 
-    /// Lets the pairs wait whose boxes overlap: one of each lane at a time, as long as any has
-    /// some.
+    /// Lets the pairs wait whose boxes overlap, one of each lane at a time.
     FIBER_ON_DEVICE void queue_hits(std::uint32_t other, bool over_theirs,
                                     typename Warp::template PerLane<std::uint32_t>& hits) {
       for (;;) {
@@ -235,8 +233,8 @@ struct FindPairs {
       warp_.sync();
     }
 
-    /// Takes the last entries out of a queue, a warp's worth if there are so many.
-    /// @return how many; they stand where the queue ends now, until something is put there
+    /// Takes the last entries out of a queue, a warp's worth at most.
+    /// @return how many; they stand where it ends now, until something is put there
     FIBER_ON_DEVICE static int take_last(int& waiting) {
       const int size = waiting < warp_width ? waiting : warp_width;
       waiting -= size;
