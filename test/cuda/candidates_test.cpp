@@ -156,10 +156,10 @@ TEST(Candidates, ThousandsThatOverlapAreAlone) {
     device->update_from_host(batch.points);
     Options options{0.01};
     const DeviceProximity::Contacts arrays = device->query_to_host(options);
-    EXPECT_GT(expect_candidates(arrays, arrays.count, batch, options), candidates.size() / 3);
+    EXPECT_GT(expect_candidates(arrays, arrays.count, batch, options), candidates.size() / 6);
     options.neighbour_skip.reset();
     const std::size_t touching = expect_touching(*device, batch, options);
-    EXPECT_GT(touching, candidates.size() / 10);
+    EXPECT_GT(touching, candidates.size() / 20);
     EXPECT_LT(touching, candidates.size() * 9 / 10);
   }
 }

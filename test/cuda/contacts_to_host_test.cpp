@@ -109,7 +109,7 @@ TEST(ContactsToHost, GrowAndShrinkFromFrameToFrame) {
     if (HasFatalFailure()) {
       return;
     }
-    if (random.chance(0.5)) {
+    if (held.size() < 2 || random.chance(0.5)) {
       held.emplace_back(found);
     }
     most = std::max(most, expected.size());
@@ -122,7 +122,6 @@ TEST(ContactsToHost, GrowAndShrinkFromFrameToFrame) {
   }
   device.update_from_host(apart);
   EXPECT_EQ(device.query_to_host({0.0}).count, 0U);
-  EXPECT_GT(held.size(), 2U);
   for (const HeldContacts& before : held) {
     EXPECT_TRUE(before.are_as_they_were());
   }

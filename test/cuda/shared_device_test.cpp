@@ -98,6 +98,7 @@ TEST(SharedDevice, ServesEnginesOnSeveralThreads) {
   register_cuda_tree();
   constexpr int user_count = 4;
   constexpr int frame_count = 12;
+  constexpr double margin = 0.05;
   std::vector<std::vector<FiberAssembly>> frames(user_count);
   Random random;
   for (std::vector<FiberAssembly>& of_user : frames) {
@@ -114,7 +115,7 @@ TEST(SharedDevice, ServesEnginesOnSeveralThreads) {
       for (const FiberAssembly& fibers : frames[user]) {
         engine->update(fibers);
         QueryResult result;
-        engine->query(within_beyond_neighbours(0.005), result);
+        engine->query(within_beyond_neighbours(margin), result);
         found[user].push_back(result.contacts);
       }
     });
@@ -126,8 +127,8 @@ TEST(SharedDevice, ServesEnginesOnSeveralThreads) {
     for (const FiberAssembly& fibers : frames[0]) {
       device.update_from_host(fibers.points());
       const std::size_t expected =
-          answer("run_tree", fibers, within_beyond_neighbours(0.005)).contacts.size();
-      mismatches += device.query_to_host({0.005}).count != expected ? 1 : 0;
+          answer("run_tree", fibers, within_beyond_neighbours(margin)).contacts.size();
+      mismatches += device.query_to_host({margin}).count != expected ? 1 : 0;
     }
   });
   for (std::thread& thread : threads) {
@@ -138,7 +139,7 @@ TEST(SharedDevice, ServesEnginesOnSeveralThreads) {
     ASSERT_EQ(found[user].size(), std::size_t{frame_count});
     for (std::size_t frame = 0; frame < frame_count; ++frame) {
       const std::vector<Contact> expected =
-          answer("run_tree", frames[user][frame], within_beyond_neighbours(0.005)).contacts;
+          answer("run_tree", frames[user][frame], within_beyond_neighbours(margin)).contacts;
       EXPECT_GT(expected.size(), 0U);
       EXPECT_TRUE(same_contacts(found[user][frame], expected)) << user << ", " << frame;
     }
