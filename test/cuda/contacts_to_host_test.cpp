@@ -13,26 +13,13 @@
 #include "test/support/assemblies.hpp"
 #include "test/support/contacts.hpp"
 #include "test/support/cuda_tree.hpp"
+#include "test/support/device_arrays.hpp"
 #include "test/support/error_of.hpp"
 #include "test/support/random.hpp"
 #include "test/support/rounds.hpp"
 
 namespace fiber::test {
 namespace {
-
-/// @param contacts those of an engine, for the same
-void expect_arrays_of(const DeviceProximity::Contacts& found, const FiberAssembly& fibers,
-                      const std::vector<Contact>& contacts) {
-  ASSERT_EQ(found.count, contacts.size());
-  for (std::size_t i = 0; i < contacts.size(); ++i) {
-    const Contact& contact = contacts[i];
-    ASSERT_EQ(found.a[i], fibers.offsets()[contact.fiber_a] + contact.segment_a);
-    ASSERT_EQ(found.b[i], fibers.offsets()[contact.fiber_b] + contact.segment_b);
-    ASSERT_EQ(found.s[i], contact.s);
-    ASSERT_EQ(found.t[i], contact.t);
-    ASSERT_EQ(found.distance[i], contact.distance);
-  }
-}
 
 /// All families, with points anywhere and page-locked.
 TEST(ContactsToHost, AreThoseOfRunTree) {
@@ -54,7 +41,8 @@ TEST(ContactsToHost, AreThoseOfRunTree) {
       QueryOptions same = within(margin);
       same.neighbour_skip = 1;
       const std::vector<Contact> expected = answer("run_tree", fibers, same).contacts;
-      expect_arrays_of(device.query_to_host({margin}), fibers, expected);
+      const DeviceProximity::Contacts found = device.query_to_host({margin});
+      expect_same(found, found.count, fibers, expected);
       if (HasFatalFailure()) {
         return;
       }
@@ -105,7 +93,7 @@ TEST(ContactsToHost, GrowAndShrinkFromFrameToFrame) {
       EXPECT_EQ(device.query({margin}).count, expected.size());
     }
     const DeviceProximity::Contacts found = device.query_to_host({margin});
-    expect_arrays_of(found, fibers, expected);
+    expect_same(found, found.count, fibers, expected);
     if (HasFatalFailure()) {
       return;
     }

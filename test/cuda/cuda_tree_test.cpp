@@ -163,14 +163,8 @@ TEST(DeviceProximity, GivesRunTreesContacts) {
       } else {
         device.update(arrays.put(coordinates_of<double>(fibers)).get());
       }
-      DeviceProximity::Options options;
-      options.margin = random.chance(0.5) ? 0.0 : 0.05 * extent_of(fibers);
-      options.neighbour_skip = static_cast<std::uint32_t>(random.integer(0, 3));
-      options.pairing = static_cast<Pairing>(random.integer(0, 2));
-      QueryOptions same = within(options.margin);
-      same.neighbour_skip = options.neighbour_skip;
-      same.pairing = options.pairing;
-      const QueryResult expected = answer("run_tree", fibers, same);
+      const DeviceProximity::Options options = random_device_options(random, fibers);
+      const QueryResult expected = answer("run_tree", fibers, same_query(options));
       expect_same(arrays, device.query(options), fibers, expected.contacts);
       if (HasFatalFailure()) {
         return;

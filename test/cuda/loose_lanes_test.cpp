@@ -86,14 +86,9 @@ TEST(LooseLanes, FindTheSameContacts) {
       const auto executor = std::make_shared<LooseExecutor>(random);
       DeviceProximity device(make_loose_device(executor), fibers.offsets(), fibers.radii());
       device.update_from_host(fibers.points());
-      DeviceProximity::Options options;
-      options.margin = random.chance(0.5) ? 0.0 : 0.05 * extent_of(fibers);
-      options.neighbour_skip = static_cast<std::uint32_t>(random.integer(0, 3));
-      options.pairing = static_cast<Pairing>(random.integer(0, 2));
-      QueryOptions same = within(options.margin);
-      same.neighbour_skip = options.neighbour_skip;
-      same.pairing = options.pairing;
-      const std::vector<Contact> expected = answer("run_tree", fibers, same).contacts;
+      const DeviceProximity::Options options = random_device_options(random, fibers);
+      const std::vector<Contact> expected =
+          answer("run_tree", fibers, same_query(options)).contacts;
       DeviceArrays arrays;
       expect_same(arrays, device.query(options), fibers, expected);
       ASSERT_EQ(executor->stuck_count(), 0);

@@ -18,6 +18,7 @@
 #include "test/support/assemblies.hpp"
 #include "test/support/candidate_batch.hpp"
 #include "test/support/contacts.hpp"
+#include "test/support/device_arrays.hpp"
 #include "test/support/failing_device.hpp"
 #include "test/support/random.hpp"
 
@@ -95,19 +96,6 @@ TEST(LostDevice, EveryCallOfTheEngineTellsOfIt) {
   CudaTreeEngine engine(make_failing_device(), {});
   engine.update(fibers);
   EXPECT_TRUE(same_contacts(answer(engine, options).contacts, expected.contacts));
-}
-
-/// What of the contacts of brute force DeviceProximity has.
-template <class Arrays>
-void expect_same(const Arrays& found, std::size_t count, const FiberAssembly& fibers,
-                 const std::vector<Contact>& expected) {
-  ASSERT_EQ(count, expected.size());
-  for (std::size_t i = 0; i < count; ++i) {
-    const Contact& contact = expected[i];
-    ASSERT_EQ(found.a[i], fibers.offsets()[contact.fiber_a] + contact.segment_a);
-    ASSERT_EQ(found.b[i], fibers.offsets()[contact.fiber_b] + contact.segment_b);
-    ASSERT_EQ(found.distance[i], contact.distance);
-  }
 }
 
 /// One that fails once goes on with what is asked for next, and has lost nothing.
