@@ -46,8 +46,6 @@ class DeviceOf final : public Device {
 
   DeviceContacts contacts(const DeviceTree& tree, const PairRule& rule, double margin) override {
     const Turn turn(*executor_);
-    wait_for_readers();
-    clock_.start(*executor_);
     const std::uint32_t count = search_for_contacts(tree, rule);
     // They are there when it returns: others may read them.
     DeviceContacts contacts =
@@ -64,8 +62,6 @@ class DeviceOf final : public Device {
   DeviceContacts contacts_to_host(const DeviceTree& tree, const PairRule& rule,
                                   double margin) override {
     const Turn turn(*executor_);
-    wait_for_readers();
-    clock_.start(*executor_);
     const std::uint32_t count = search_for_contacts(tree, rule);
     DeviceContacts contacts =
         judge_.judge_to_host(*executor_, tree.points(), margin, pairs_.data(), count);
@@ -154,9 +150,6 @@ class DeviceOf final : public Device {
   static constexpr std::uint64_t first_room = 1024;
   static constexpr std::uint64_t max_pairs = Executor::max_values;
 
-  /// Contacts that somebody has let go of may still be read by what he has given the device before.
-  void wait_for_readers() { executor_->wait_for_others(); }
-
   /// The pairs, sorted, in pairs_; none if there are more than `most`.
   std::uint64_t search(const DeviceTree& a, std::uint32_t first_leaf, std::uint32_t leaf_count,
                        const DeviceTree& b, const PairRule& rule, std::uint64_t most) {
@@ -205,6 +198,9 @@ class DeviceOf final : public Device {
 
   /// How many pairs of a tree's segments with each other are near; sorted, in pairs_.
   std::uint32_t search_for_contacts(const DeviceTree& tree, const PairRule& rule) {
+    // Contacts that somebody has let go of may still be read by what he has given the device.
+    executor_->wait_for_others();
+    clock_.start(*executor_);
     const std::uint64_t found = search(tree, 0, leaf_count(tree), tree, rule, max_pairs);
     require_pairs(found);
     return static_cast<std::uint32_t>(found);

@@ -2,7 +2,6 @@
 
 #include <pybind11/stl.h>
 
-#include <cstring>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -134,11 +133,10 @@ void require_device(std::int32_t device, bool on_gpu) {
 /// The capsule lets go of the array as it ends: it is not taken out of it.
 DevicePoints from_dlpack(const py::object& points, bool on_gpu, std::size_t point_count) {
   const py::object given = points.attr("__dlpack__")();
-  const bool is_capsule = py::isinstance<py::capsule>(given);
-  const py::capsule capsule = is_capsule ? py::capsule(given) : py::capsule();
-  if (!is_capsule || capsule.name() == nullptr || std::strcmp(capsule.name(), capsule_name) != 0) {
+  if (PyCapsule_IsValid(given.ptr(), capsule_name) == 0) {
     throw py::type_error("__dlpack__() of the points must give a capsule named 'dltensor'");
   }
+  const auto capsule = py::reinterpret_borrow<py::capsule>(given);
   const DLTensor& tensor = static_cast<const DLManagedTensor*>(capsule)->tensor;
   require_device(tensor.device.type, on_gpu);
   require_shape({tensor.shape, tensor.shape + tensor.dimensions}, point_count);
